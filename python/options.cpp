@@ -81,6 +81,12 @@ void require_valid_keywords(const ExtractOptions& options) {
   }
 }
 
+void require_program_range(const char* keyword, double value, double least, double most) {
+  if (value >= least && value <= most) return;
+  throw Error(Fault::usage,
+              fmt::format("{} is {:.7g}, needed {:.7g}..{:.7g}", keyword, value, least, most));
+}
+
 void require_together(const RepairOptions& options) {
   require_valid(options);
   if (options.wrap == Wrapping::never && options.wrap_gap > 0) {

@@ -67,6 +67,9 @@ auto sets(Choice& value, const char* option, const NameTable<Choice, Count>& tab
 /// `require_valid`, whose messages have the keyword for the member: "fair" for the iterations.
 void require_valid_keywords(const ExtractOptions& options);
 
+/// Throws Error(Fault::usage) for a number that the program refuses, though the library takes it.
+void require_program_range(const char* keyword, double value, double least, double most);
+
 /// `require_valid`, and Error(Fault::usage) for a wrap gap where nothing is wrapped.
 void require_together(const RepairOptions& options);
 

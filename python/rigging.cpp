@@ -80,6 +80,9 @@ RigSettings rig_settings_of(const py::dict& options) {
   setters["up"] = sets(character.plan.up, "up", directions);
   set_options(options, setters);
   make.extract.fairing = make.extract.fair.iterations > 0;
+  require_program_range("bone_length", character.rig.joints.bone_length, 0.5, 1000);
+  require_program_range("joint_budget", character.joint_budget, 0, 1e6);
+  require_program_range("softness", character.rig.skin.softness, 0.05, 20);
   require_valid_keywords(make.extract);
   require_valid(character.rig);
   require_valid(character.parts);

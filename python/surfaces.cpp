@@ -80,6 +80,7 @@ py::tuple contract_soup(const PolygonSoup& soup, const py::dict& options,
   setters["solver"] = sets(contraction.solver, "solver", solvers);
   setters["threads"] = sets(contraction.threads);
   set_options(options, setters);
+  require_program_range("iterations", contraction.max_iterations, 1, 1e6);
   require_valid(contraction);
   require_together(as_repaired);
   Surface moved;

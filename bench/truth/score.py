@@ -10,13 +10,19 @@ a skeleton counts as wrong topology, nothing found, and is left out of the means
 docs/truth.md defines the columns.
 """
 
+import argparse
 import csv
 import pathlib
 import sys
 
-import numpy
+try:
+    import numpy
 
-import curveskel
+    import curveskel
+except ImportError as missing:
+    print(f"usage: ./run python score.py TRUTH SKELETONS [--csv FILE.csv] (found {missing})",
+          file=sys.stderr)
+    sys.exit(2)
 
 EXTENSIONS = ("ply", "obj", "cgal", "swc", "vtp", "json", "graphml")
 
@@ -197,14 +203,18 @@ def table_row(title, rows):
             f"| {mean('radius_error', 1, 100)} | {mean('reconstruction', 4)} |")
 
 
+def arguments_of(words):
+    """TRUTH, SKELETONS and the table's file or None; exits with 2 where that is not what was given."""
+    parser = argparse.ArgumentParser(prog="score.py", description="See docs/truth.md.")
+    parser.add_argument("truth", metavar="TRUTH", type=pathlib.Path)
+    parser.add_argument("skeletons", metavar="SKELETONS", type=pathlib.Path)
+    parser.add_argument("--csv", metavar="FILE.csv")
+    found = parser.parse_args(words)
+    return found.truth, found.skeletons, found.csv
+
+
 def main():
-    arguments = sys.argv[1:]
-    table = None
-    if "--csv" in arguments:
-        at = arguments.index("--csv")
-        table = arguments[at + 1]
-        del arguments[at:at + 2]
-    truth_folder, skeletons = map(pathlib.Path, arguments)
+    truth_folder, skeletons, table = arguments_of(sys.argv[1:])
     with open(truth_folder / "INDEX.csv", newline="") as file:
         members = list(csv.DictReader(file))
     rows = []

@@ -79,7 +79,10 @@ class Rig:
 
     @property
     def plan(self):
-        """How the body is built: "humanoid", "quadruped", .., "other"."""
+        """How the body is built: "humanoid", "quadruped", "bird", "biped-with-tail", "fish" or "other".
+
+        "none" where no plan was made: with `root`, `joints`, `keep_rig` or plan="none".
+        """
         return self.report["plan"]
 
     def save(self, path, *, vrm_name="", vrm_author="", vrm_licence=""):

@@ -123,19 +123,20 @@ class Skeleton:
         """
         return None if self._extraction is None else self._extraction.level
 
-    def levels(self, most, *, progress=None):
+    def levels(self, most, *, time_limit=0, progress=None):
         """A list of Skeletons, the finest first, as `curveskel extract --levels` writes them.
 
         most: so many levels, 1 to 100; fewer where the lives of the branches tell fewer apart. Each
             is part of the one before; limits are the widest gaps between the lives.
+        time_limit, progress: as of `extract`.
 
         Each has its own certificate, and nodes and branches their own numbers. Those of a skeleton
         that was pickled have neither certificate nor surface, as those of a file.
         """
         count = index(most, "most", 1, 100)
-        if self._extraction is None or isinstance(self._extraction, _Kept):
-            return [Skeleton(graph) for graph in self._graph.levels(count)]
-        with listening(progress) as listener:
+        with listening(progress, time_limit) as listener:
+            if self._extraction is None or isinstance(self._extraction, _Kept):
+                return [Skeleton(graph) for graph in self._graph.levels(count)]
             return [Skeleton(level.skeleton, level)
                     for level in self._extraction.levels(count, listener)]
 
@@ -168,7 +169,7 @@ class Skeleton:
     def branches(self):
         """DataFrame, one row a branch, the columns of `curveskel extract -o OUT.csv`.
 
-        docs/numbers.md defines each. Lengths and radii are in the units of the surface.
+        Its first, `branch`, is the index. docs/numbers.md defines each. Lengths and radii are in the units of the surface.
         """
         return self.branch_table()
 
@@ -192,18 +193,19 @@ class Skeleton:
     def junctions(self):
         """DataFrame, one row a node of three or more branches: degree, branches, angles, planarity.
 
-        `angles` are degrees between the branches of each pair, in the order of
+        The node is the index. `angles` are degrees between the branches of each pair, in the order of
         itertools.combinations(row.branches, 2). docs/numbers.md defines each column.
         """
         import pandas
 
         return pandas.DataFrame(self._graph.junction_table()).set_index("node")
 
-    def profiles(self, spacing=None, *, threads=0, progress=None):
+    def profiles(self, spacing=None, *, threads=0, time_limit=0, progress=None):
         """DataFrame of sections along each branch: place, tangent, area, perimeter, and more.
 
         spacing: of the sections along the branch, or the next smaller that divides it, in the
             units of the surface; None = a section at each node, as `curveskel extract --profiles`.
+        threads, time_limit, progress: as of `extract`.
 
         docs/numbers.md defines each column. Raises UsageError of a skeleton without a surface.
         """
@@ -215,7 +217,7 @@ class Skeleton:
         except (TypeError, ValueError) as error:
             raise UsageError(f"spacing: needs a number or None, not {spacing!r}") from error
         count = index(threads, "threads", 0, MOST_THREADS)
-        with listening(progress) as listener:
+        with listening(progress, time_limit) as listener:
             return pandas.DataFrame(self._extraction.profiles(step, count, listener))
 
     def vertex_labels(self):

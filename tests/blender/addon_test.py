@@ -7,6 +7,7 @@ import os
 import pathlib
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -15,6 +16,8 @@ PROGRAM = pathlib.Path(os.environ["CURVESKEL_PROGRAM"])
 ZIP = pathlib.Path(os.environ["CURVESKEL_ADDON"])  # as the build makes it
 LAWS = SOURCE / "tests" / "blender" / "addon"
 FIND_LAWS = f"import sys; sys.dont_write_bytecode = True; sys.path.append({str(LAWS)!r})"
+
+PYTHON_MODULE = "__version__ = 'of the Python module'\n"  # as python3-curveskel, in its stead
 
 
 def capped_bar():
@@ -55,10 +58,13 @@ class AddOn(unittest.TestCase):
             (folder / "button.off").write_text(OCTAHEDRON)
             (folder / "tmp").mkdir()
             (folder / "scripts").mkdir()
+            (folder / "modules" / "curveskel").mkdir(parents=True)
+            (folder / "modules" / "curveskel" / "__init__.py").write_text(PYTHON_MODULE)
             # Blender takes the first python3 in the path for its own.
             environment = {**os.environ, "TMPDIR": str(folder / "tmp"),
                            "BLENDER_USER_SCRIPTS": str(folder / "scripts"),
                            "BLENDER_USER_CONFIG": str(folder / "config"),
+                           "PYTHONPATH": str(folder / "modules"),
                            "PATH": f"{PROGRAM.parent}:/usr/local/bin:/usr/bin:/bin"}
             done = subprocess.run(
                 [*with_screen, shutil.which("blender"), *before, "--python-exit-code", "1",
@@ -66,6 +72,10 @@ class AddOn(unittest.TestCase):
                 capture_output=True, text=True, stdin=subprocess.DEVNULL, env=environment,
                 check=False, timeout=300)
             self.assertEqual(done.returncode, 0, done.stdout[-3000:] + done.stderr[-3000:])
+            return done.stdout
+
+    def test_stands_beside_the_python_module(self):
+        self.run_in_blender("python_module")
 
     def test_rigs_the_users_own_objects(self):
         self.run_in_blender("rig")
@@ -91,6 +101,21 @@ class AddOn(unittest.TestCase):
     def test_skeleton_comes_as_curves_with_radii(self):
         self.run_in_blender("skeleton")
 
+    def test_what_the_program_warns_of_is_said(self):
+        said = self.run_in_blender("warnings")
+        for words in (", 1 warning\n", "Warning: no quadruped, which was asked for", ", 2 warnings\n",
+                      "Warning: the names mixamo have no words for the plan quadruped",
+                      "Warning: 1 of 2: the names mixamo have no words for the plan other",
+                      "Warning: 2 of 2: no quadruped, which was asked for",
+                      "lie within the box of the surface; move or turn the armature into",
+                      ": scale the armature so\n"):
+            self.assertIn(words, said)
+        for words in ("--", "json", "glTF", "in.obj"):
+            self.assertNotIn(words, said)
+
+    def test_the_head_is_where_the_body_looks(self):
+        self.run_in_blender("front")
+
     def test_failures_are_said_and_leave_nothing(self):
         self.run_in_blender("failures")
 
@@ -103,10 +128,28 @@ class AddOn(unittest.TestCase):
                             ("xvfb-run", "-a", "-s", "-screen 0 1280x800x24"))
 
 
+class Words(unittest.TestCase):
+    def test_are_those_of_the_panel(self):
+        sys.path.insert(0, str(SOURCE / "blender" / "curveskel_addon"))
+        import program
+        for said, here in (
+                ("in.obj: found a flat drawing; give it thickness (--least-sheet 0.01 does so with "
+                 "sheets of a hundredth and more; Blender: the Solidify modifier) or close it first",
+                 "found a flat drawing; give it thickness (the Solidify modifier) or close it first"),
+                ("give another --up or --front", "give another Up or Front"),
+                ("--front -y needs a plan, and --plan none makes none",
+                 "Front -y needs a plan, and Plan none makes none"),
+                ("another shape; choose a narrower --wrap-gap, or --wrap never", "another shape"),
+                ("is large; choose a wider --wrap-gap, or decimate the surface first",
+                 "is large; decimate the surface first"),
+                ("in this order? (--wrap all takes what encloses them all)", "in this order?")):
+            self.assertEqual(program.in_blender(said), here)
+
+
 class Panel(unittest.TestCase):
     def choices(self, name):
         """The first words of the lists in panel.py."""
-        tree = ast.parse((SOURCE / "blender" / "curveskel" / "panel.py").read_text())
+        tree = ast.parse((SOURCE / "blender" / "curveskel_addon" / "panel.py").read_text())
         for statement in tree.body:
             if isinstance(statement, ast.Assign) and statement.targets[0].id == name:
                 return [pair[0] for pair in ast.literal_eval(statement.value.generators[0].iter)]

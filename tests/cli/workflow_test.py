@@ -34,12 +34,13 @@ def expect(truth, message):
         sys.exit(f"workflow_test: {message}")
 
 
-def run(folder, sheet, *more, program=PROGRAM, results=".", shard_size=2, time_limit=60):
+def run(folder, sheet, *more, program=PROGRAM, results=".", shard_size=2, time_limit=60,
+        option="worst=1"):
     return subprocess.run(
         ["snakemake", *more, "--snakefile", SOURCE / "workflow" / "workflow" / "Snakefile",
          "--profile", SOURCE / "workflow" / "profiles" / "local", "--cores", "2", "--directory",
          folder, "--config", f"sheet={sheet}", f"results={results}", f"program={program}",
-         f"shard_size={shard_size}", f"time_limit={time_limit}", "worst=1"],
+         f"shard_size={shard_size}", f"time_limit={time_limit}", option],
         capture_output=True, text=True)
 
 
@@ -80,8 +81,11 @@ def rows_of_all_kinds(folder):
     expect("--detail" in rows["wrong"]["message"], rows["wrong"])
     branches = [row["id"] for row in table(results / "branches.csv")]
     expect(branches == ["y", "y", "y", "torus"], branches)
-    worst = (results / "report.html").read_text().split("The worst certificates")[1]
+    report, worst = (results / "report.html").read_text().split("The worst certificates")
     expect("<svg" in worst, "no picture in the report")
+    expect("no such file, or no surface" in report, "no word about a file that is not there")
+    tips = next(chart for chart in report.split("<figure>") if "<figcaption>tips" in chart)
+    expect("log scale, 1 of 0 beside it" in tips and "0.001" not in tips, f"a torus: {tips}")
     documented = (SOURCE / "workflow" / "README.md").read_text()
     for column in rows["y"]:
         expect(f"`{column}`" in documented, f"workflow/README.md has no word about {column}")
@@ -209,6 +213,12 @@ def refused(folder):
     write_sheet(sheet, [(*ROWS[0], "a fly")], (*ordinary, "species"))
     ran = run(folder / "refused", sheet, "--dry-run")
     expect(ran.returncode == 0 and "species" in ran.stdout + ran.stderr, ran.stderr[-500:])
+    for option, words in (("timelimit=3", ": there is no such option; those that there are: sheet, "
+                           "results, program, shard_size, time_limit, worst\n"),
+                          ("worst=few", ": needed is a whole number from 0 up\n")):
+        ran = run(folder / "refused", sheet, "--dry-run", option=option)
+        said = ran.stdout + ran.stderr
+        expect(ran.returncode != 0 and words in said and "line " not in said, f"{option}: {said}")
     ran = run(folder / "refused", sheet, "--dry-run", program=folder / "no-program")
     expect(ran.returncode != 0 and "no-program" in ran.stdout + ran.stderr, ran.stderr[-500:])
 

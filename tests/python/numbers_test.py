@@ -155,6 +155,20 @@ class Tables(unittest.TestCase):
             self.assertEqual((self.folder / "y.html").read_bytes(),
                              (self.folder / "program.html").read_bytes())
 
+    def test_sections_and_levels_have_a_time_limit(self):
+        skeleton = curveskel.extract(Y)
+        for call in (lambda: skeleton.profiles(time_limit=1e-9),
+                     lambda: skeleton.levels(3, time_limit=1e-9)):
+            with self.assertRaisesRegex(curveskel.SolverError, "time limit of 1e-09 s"):
+                call()
+        self.assertEqual(len(skeleton.levels(3, time_limit=60)), len(skeleton.levels(3)))
+        self.assertTrue(skeleton.profiles(time_limit=60).equals(skeleton.profiles()))
+
+    def test_the_number_is_the_index(self):
+        skeleton = curveskel.extract(Y)
+        self.assertEqual(skeleton.branches.index.name, "branch")
+        self.assertEqual(skeleton.junctions.index.name, "node")
+
     def test_what_needs_a_surface_says_so(self):
         curveskel.extract(Y).save(self.folder / "y.ply")
         again = curveskel.read(self.folder / "y.ply")

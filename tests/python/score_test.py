@@ -2,6 +2,7 @@
 
 import os
 import pathlib
+import subprocess
 import sys
 import types
 import unittest
@@ -34,6 +35,16 @@ SURFACE = numpy.array([(x, y, z) for x in (-0.05, 1.05) for y in (-SIDE / 2, SID
 EVEN = numpy.linspace(0, 1, 11)
 # As many nodes in the first hundredth as in all the rest.
 UNEVEN = numpy.concatenate([numpy.linspace(0, 0.01, 1000), numpy.linspace(0.011, 1, 1000)])
+
+
+class Usage(unittest.TestCase):
+    def test_says_what_it_needs(self):
+        for words in ([], ["truth"], ["truth", "skeletons", "--csv"]):
+            ran = subprocess.run([sys.executable, score.__file__, *words], capture_output=True,
+                                 text=True)
+            self.assertEqual(ran.returncode, 2)
+            self.assertTrue(ran.stderr.startswith("usage: score.py "), ran.stderr)
+            self.assertNotIn("Traceback", ran.stderr)
 
 
 class Scores(unittest.TestCase):

@@ -95,6 +95,13 @@ class Verbs(unittest.TestCase):
         with self.assertRaises(curveskel.UsageError):
             rig.save(self.folder / "h.vrm")
 
+    def test_a_rig_without_a_plan_says_none(self):
+        made = curveskel.rig(Y, names="neutral")
+        made.save(self.folder / "y.json")
+        self.assertEqual(made.plan, "other")
+        for options in ({"plan": "none"}, {"root": 0}, {"joints": self.folder / "y.json"}):
+            self.assertEqual(curveskel.rig(Y, **options).plan, "none")
+
     def test_a_rig_for_a_skeleton_is_told_where_it_goes(self):
         rig = curveskel.rig(Y)
         rig.save(self.folder / "rig.json")
@@ -187,13 +194,17 @@ class Verbs(unittest.TestCase):
                               ("min_size", lambda: curveskel.rig(Y, min_size=2)),
                               ("min_size", lambda: curveskel.contract(Y, min_size=2)),
                               ("iterations", lambda: curveskel.contract(Y, iterations=-1)),
+                              ("iterations", lambda: curveskel.contract(Y, iterations=0)),
                               ("iterations", lambda: curveskel.fair(Y, iterations=-1)),
                               ("rings", lambda: curveskel.fair(Y, rings=0)),
                               ("least_sheet", lambda: curveskel.extract(Y, least_sheet=2)),
                               ("bone_length", lambda: curveskel.rig(Y, bone_length=-1)),
                               ("follow", lambda: curveskel.rig(Y, follow=-1)),
                               ("softness", lambda: curveskel.rig(Y, softness=-1)),
-                              ("joint_budget", lambda: curveskel.rig(Y, joint_budget=-1))):
+                              ("joint_budget", lambda: curveskel.rig(Y, joint_budget=-1)),
+                              ("bone_length", lambda: curveskel.rig(Y, bone_length=0.4)),
+                              ("softness", lambda: curveskel.rig(Y, softness=21)),
+                              ("joint_budget", lambda: curveskel.rig(Y, joint_budget=1000001))):
             with self.assertRaisesRegex(curveskel.UsageError, f"^{keyword} is -?[0-9]", msg=keyword):
                 call()
 
@@ -353,6 +364,24 @@ class Verbs(unittest.TestCase):
             annotated = {node.target.id for node in known[name].body
                          if isinstance(node, ast.AnnAssign)}
             self.assertEqual(kept, annotated, name)
+
+    def test_the_stubs_have_the_parameters(self):
+        stubs = ast.parse((SOURCE / "python" / "curveskel" / "__init__.pyi").read_text())
+
+        def compare(there, stub):
+            arguments = stub.args
+            names = [one.arg for one in (*arguments.args, *arguments.kwonlyargs,
+                                         *filter(None, [arguments.kwarg]))]
+            self.assertEqual(list(inspect.signature(there).parameters), names, stub.name)
+
+        for node in stubs.body:
+            there = getattr(curveskel, node.name) if hasattr(node, "name") and (
+                node.name in curveskel.__all__) else None
+            if isinstance(node, ast.FunctionDef):
+                compare(there, node)
+            for member in node.body if there and isinstance(node, ast.ClassDef) else ():
+                if isinstance(member, ast.FunctionDef) and not member.decorator_list:
+                    compare(getattr(there, member.name), member)
 
 
 if __name__ == "__main__":

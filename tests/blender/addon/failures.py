@@ -2,7 +2,7 @@
 
 import bpy
 from scene import armatures, far, folder, leftovers, mesh_object, rig, select, world_places, y_shape
-from curveskel import program
+from curveskel_addon import program
 
 for places, faces, words in (([(0, 0, 0), (1, 0, 0), (2, 0, 0)], [(0, 1, 2)], "encloses nothing"),
                              ([], [], "no faces"), ([(0, 0, 0), (1, 0, 0)], [], "no faces")):
@@ -15,7 +15,7 @@ for places, faces, words in (([(0, 0, 0), (1, 0, 0), (2, 0, 0)], [(0, 1, 2)], "e
         else:
             assert False, "a line has no rig"
 assert not [thing for thing in bpy.data.objects if thing.type == "ARMATURE"]
-preferences = bpy.context.preferences.addons["curveskel"].preferences
+preferences = bpy.context.preferences.addons["curveskel_addon"].preferences
 for path, words in (("/nowhere/curveskel", "not found"), ("/bin/true", "no curveskel")):
     preferences.program = path
     try:
@@ -38,7 +38,7 @@ assert job.stage() == "contract ..." and not job.is_done()
 job.close()
 assert not leftovers()
 # An error in the add-on leaves no half of a rig.
-from curveskel import armatures as module
+from curveskel_addon import armatures as module
 
 
 def breaks(*things):
@@ -59,7 +59,7 @@ module.tails = lambda joints: 1 / 0
 breaks(body)
 assert not armatures() and not bpy.data.armatures
 module.tails = tails
-from curveskel import groups
+from curveskel_addon import groups
 fill, groups.fill = groups.fill, lambda *_: 1 / 0
 breaks(body)
 assert not armatures() and not bpy.data.armatures

@@ -5,7 +5,7 @@ import contextlib
 import bpy
 from mathutils import Vector
 from scene import armatures, figure, refused, rig, run_laws, select
-from curveskel import program
+from curveskel_addon import program
 
 
 @contextlib.contextmanager

@@ -12,7 +12,7 @@ folder = pathlib.Path(sys.argv[-2])
 source = pathlib.Path(sys.argv[-1])
 bpy.ops.wm.read_factory_settings(use_empty=True)
 bpy.ops.preferences.addon_install(filepath=str(folder / "curveskel.zip"))
-bpy.ops.preferences.addon_enable(module="curveskel")
+bpy.ops.preferences.addon_enable(module="curveskel_addon")
 
 
 def mesh_object(name, places, faces):
@@ -29,6 +29,15 @@ def off(file):
     return ([tuple(map(float, line.split())) for line in lines[2:2 + vertices]],
             [tuple(map(int, line.split()[1:4]))
              for line in lines[2 + vertices:2 + vertices + faces]])
+
+
+def obj(name, file):
+    # y is up in the file, z here
+    rows = [line.split() for line in (source / file).read_text().splitlines()]
+    places = [tuple(map(float, row[1:4])) for row in rows if row and row[0] == "v"]
+    return mesh_object(name, [(x, -z, y) for x, y, z in places],
+                       [[int(corner.split("/")[0]) - 1 for corner in row[1:]]
+                        for row in rows if row and row[0] == "f"])
 
 
 def select(*things):

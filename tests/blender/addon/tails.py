@@ -2,7 +2,7 @@
 
 import bpy
 from scene import far, figure, rig, run_laws
-from curveskel import armatures as module
+from curveskel_addon import armatures as module
 
 
 def joint(name, parent, position, **more):

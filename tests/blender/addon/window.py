@@ -8,7 +8,7 @@ import traceback
 
 import bpy
 from scene import armatures, folder, leftovers, select, y_shape
-from curveskel.panel import CURVESKEL_PT_panel
+from curveskel_addon.panel import CURVESKEL_PT_panel
 
 bpy.context.preferences.view.show_splash = False
 bpy.context.preferences.use_preferences_save = False
@@ -35,7 +35,7 @@ def steps():
     slow = folder / "slow"
     slow.write_text("#!/bin/sh\necho 'contract ...' >&2\nexec sleep 60\n")
     slow.chmod(0o755)
-    preferences = bpy.context.preferences.addons["curveskel"].preferences
+    preferences = bpy.context.preferences.addons["curveskel_addon"].preferences
     preferences.program = str(slow)
     with bpy.context.temp_override(window=window, area=area, region=region):
         assert bpy.ops.curveskel.rig("INVOKE_DEFAULT") == {"RUNNING_MODAL"}
@@ -57,7 +57,7 @@ def steps():
     slow.write_text(f"#!/bin/sh\nwhile [ ! -e {folder}/go ]; do sleep 0.1; done\n"
                     "exec curveskel \"$@\"\n")
     preferences.program = str(slow)
-    from curveskel import armatures as module
+    from curveskel_addon import armatures as module
     tails = module.tails
     for change in ("edit mode", "moved", "deleted", "error"):
         for thing in list(bpy.data.objects):

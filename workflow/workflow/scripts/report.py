@@ -8,18 +8,21 @@ import tempfile
 import numpy
 import pandas
 
-MEANINGS = {0: "done", 2: "usage", 3: "not a surface that can be repaired", 4: "no device",
+MEANINGS = {0: "done", 1: "a defect of the program", 2: "usage",
+            3: "no such file, or no surface in it that can be repaired", 4: "no device",
             5: "the certificate failed, or the time limit was reached", 6: "could not be written"}
 HISTOGRAMS = {"vertices": True, "branches": True, "tips": True, "inside_fraction": False,
               "coverage": False, "centredness_median": False, "tube_share": False, "seconds": True}
 
 
 def histogram(values, title, logarithmic):
-    """Bars as SVG."""
+    """Bars as SVG. A logarithmic scale has no place for 0, which the caption counts."""
     values = pandas.to_numeric(values, errors="coerce").dropna().to_numpy()
     if len(values) == 0:
         return ""
-    scaled = numpy.log10(numpy.maximum(values, 1e-3)) if logarithmic else values
+    logarithmic = logarithmic and (values > 0).any()
+    drawn = values[values > 0] if logarithmic else values
+    scaled = numpy.log10(drawn) if logarithmic else drawn
     counts, edges = numpy.histogram(scaled, bins=24)
     width, height, top = 320, 150, max(counts.max(), 1)
     bars = "".join(
@@ -28,6 +31,8 @@ def histogram(values, title, logarithmic):
         for k, count in enumerate(counts))
     show = [10 ** edges[0] if logarithmic else edges[0], 10 ** edges[-1] if logarithmic else edges[-1]]
     words = title.replace("_", " ") + (", log scale" if logarithmic else "")
+    if len(drawn) < len(values):
+        words += f", {len(values) - len(drawn)} of 0 beside it"
     return (f'<figure><svg viewBox="0 0 {width} {height}">{bars}'
             f'<text x="30" y="134">{show[0]:.3g}</text>'
             f'<text x="310" y="134" text-anchor="end">{show[1]:.3g}</text>'

@@ -1,6 +1,7 @@
 """The program: its path, and one run of it beside Blender."""
 
 import pathlib
+import re
 import shutil
 import subprocess
 import tempfile
@@ -10,6 +11,34 @@ NOT_FOUND = ("the program curveskel is not found: install it, or give its path i
 
 
 SURFACE = "in.obj"  # the file of the selected meshes, of which the user knows nothing
+JOINTS = "joints.json"  # of the selected armature's bones, likewise
+SETTINGS = {"--plan": "Plan", "--names": "Names", "--up": "Up", "--front": "Front",
+            "--follow": "Followers", "--softness": "Softness", "--detail": "Detail"}
+REMEDIES = {  # of the program's user, and of Blender's
+    "needed are joints in its coordinates (glTF has y up, Blender z: export both the same way)":
+        "move or turn the armature into the meshes",
+    "export both in one unit": "scale the armature so",
+    "; correct the curve there (`view`), or extract it anew": "", "Blender: ": ""}
+OPTION = re.compile(r"--[a-z][a-z-]*")
+
+
+def without_options(text):
+    """The text but for advice that names an option for which the add-on has no setting."""
+    def is_here(words):
+        return all(name in SETTINGS for name in OPTION.findall(words))
+    parts = [", or ".join(filter(is_here, part.split(", or "))) for part in text.split("; ")]
+    return "; ".join(filter(None, parts))
+
+
+def in_blender(text):
+    """The program's words for somebody who sees neither its options nor its files."""
+    for name in (SURFACE, JOINTS):
+        text = text.removeprefix(f"{name}: ")
+    for words, here in REMEDIES.items():
+        text = text.replace(words, here)
+    text = re.sub(r" \(([^()]*)\)", lambda found: f" ({without_options(found[1])})", text)
+    text = without_options(text.replace(" ()", ""))
+    return OPTION.sub(lambda name: SETTINGS[name[0]], text)
 
 
 class ProgramError(Exception):
@@ -65,8 +94,8 @@ class Job:
         return [line for line in text.replace("\r", "\n").split("\n") if line.strip()]
 
     def stage(self):
-        """The program's last message."""
-        lines = self.messages()
+        """The program's last message of where it is."""
+        lines = [line for line in self.messages() if not line.startswith("curveskel: ")]
         return lines[-1] if lines else "starting"
 
     def is_done(self):
@@ -77,9 +106,14 @@ class Job:
         if code != 0:
             lines = self.messages()
             said = [line for line in lines if line.startswith("curveskel: ")]
-            raise ProgramError((said or lines or [f"the program ended with {code}"])[-1]
-                               .removeprefix("curveskel: ").removeprefix(f"{SURFACE}: "))
+            last = (said or lines or [f"the program ended with {code}"])[-1]
+            raise ProgramError(in_blender(last.removeprefix("curveskel: ")))
         return True
+
+    def warnings(self):
+        start = "curveskel: warning: "
+        return [in_blender(line.removeprefix(start)) for line in self.messages()
+                if line.startswith(start)]
 
     def wait(self):
         self._process.wait()

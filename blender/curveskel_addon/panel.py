@@ -12,14 +12,16 @@ NAMES = [(name, name, meaning) for name, meaning in (
     ("auto", "readable, with .L and .R"), ("rigify", "Rigify's human or wolf"),
     ("vrm", "VRM 1.0"), ("mixamo", "Mixamo"), ("unreal", "Unreal's mannequin"),
     ("unity", "Unity"), ("godot", "Godot"), ("neutral", "joint_001 and so on"))]
-AXES = [(name, name, "") for name in ("x", "y", "z", "-x", "-y", "-z")]
+AXES = [("auto", "auto", "found from the mesh"),
+        *((name, name, "") for name in ("x", "y", "z", "-x", "-y", "-z"))]
 
 
 class CurveskelSettings(bpy.types.PropertyGroup):
     plan: bpy.props.EnumProperty(name="Plan", items=PLANS, description="How the body is built")
     names: bpy.props.EnumProperty(name="Names", items=NAMES, description="What bones are called")
-    up: bpy.props.EnumProperty(name="Up", items=AXES, default="z")
-    front: bpy.props.EnumProperty(name="Front", items=AXES, default="-y",
+    up: bpy.props.EnumProperty(name="Up", items=AXES, default="z",
+                               description="The body's up; auto also for bodies that lie")
+    front: bpy.props.EnumProperty(name="Front", items=AXES, default="auto",
                                   description="Where the body looks")
     follow: bpy.props.FloatProperty(
         name="Followers", default=1.15, min=0, max=100, soft_max=5,

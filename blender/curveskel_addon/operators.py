@@ -6,7 +6,7 @@ import bpy
 
 from . import armatures, curves, groups, meshes, parents
 from .preferences import wanted_program
-from .program import SURFACE, Job, ProgramError
+from .program import JOINTS, SURFACE, Job, ProgramError
 
 SAME_PLACE = 1e-6  # of the numbers in a matrix
 
@@ -166,6 +166,15 @@ class RunsProgram:
                                      f"they move with the bones of {armature.name}, not with the "
                                      "object")
 
+    def tell(self, made):
+        """The end, and all that the program warned of: the status bar shows the last of these."""
+        warnings = self.job.warnings()
+        count = len(warnings)
+        said = f", {count} warning{'s' if count > 1 else ''}" if warnings else ""
+        self.report({"INFO"}, made + said)
+        for number, warning in enumerate(warnings, 1):
+            self.report({"WARNING"}, f"{number} of {count}: {warning}" if count > 1 else warning)
+
     def result(self, name):
         return json.loads((self.job.folder / name).read_text())
 
@@ -266,8 +275,8 @@ class CURVESKEL_OT_rig(RunsProgram, bpy.types.Operator):
                 raise
         self.remove_unneeded(old[1:])
         count = len([name for name in names if name])
-        self.report({"INFO"}, f"{count} bones in place of the former ones of {armature.name}"
-                    if old else f"{count} bones")
+        self.tell(f"{count} bones in place of the former ones of {armature.name}" if old
+                  else f"{count} bones")
 
     def remove_unneeded(self, old):
         for armature in old:
@@ -334,8 +343,8 @@ class CURVESKEL_OT_weights(RunsProgram, bpy.types.Operator):
         with armatures.at_rest(context, [armature]):
             self.write_meshes(context)
             self.taken_armature = Taken(armature)
-        (self.job.folder / "joints.json").write_text(json.dumps({"joints": joints}))
-        self.job.start("rig", SURFACE, "-o", "out.json", "--bare", "--joints", "joints.json",
+        (self.job.folder / JOINTS).write_text(json.dumps({"joints": joints}))
+        self.job.start("rig", SURFACE, "-o", "out.json", "--bare", "--joints", JOINTS,
                        "--softness", f"{context.scene.curveskel.softness:.6g}")
 
     def finish(self, context):
@@ -350,7 +359,7 @@ class CURVESKEL_OT_weights(RunsProgram, bpy.types.Operator):
                 groups.check_mirrored(thing, taken.rows, rig, names)
             hanging = [parents.Hanging(thing) for thing in things]
             self.skin(context, armature, hanging, rig, names)
-        self.report({"INFO"}, f"weights for {len(bones)} bones")
+        self.tell(f"weights for {len(bones)} bones")
 
 
 class CURVESKEL_OT_skeleton(RunsProgram, bpy.types.Operator):
@@ -366,7 +375,7 @@ class CURVESKEL_OT_skeleton(RunsProgram, bpy.types.Operator):
     def finish(self, context):
         skeleton = self.result("out.json")
         curves.build_curve(context, skeleton, self.taken[0].key[0] + " skeleton")
-        self.report({"INFO"}, f"{len(skeleton['nodes'])} nodes")
+        self.tell(f"{len(skeleton['nodes'])} nodes")
 
 
 CLASSES = (CURVESKEL_OT_rig, CURVESKEL_OT_weights, CURVESKEL_OT_skeleton)
