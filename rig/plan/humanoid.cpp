@@ -213,10 +213,10 @@ class Humanoid {
     return below == nullptr ? hip_.z() : below->z();
   }
 
-  /// By more than half of a right angle: the curve then leaves the trunk below the shoulders.
+  /// By more than a third of a right angle: the curve may then leave the trunk below the shoulders.
   [[nodiscard]] bool are_arms_raised() const {
     const Vector3d upper = arm_joints_.elbow - arm_joints_.shoulder;
-    return arm_ != nullptr && upper.y() > std::numbers::sqrt2 / 2 * upper.norm();
+    return arm_ != nullptr && 2 * upper.y() > upper.norm();
   }
 
   /// The height at which the body is narrowest between the arms and the head.
