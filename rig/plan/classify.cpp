@@ -227,6 +227,7 @@ std::optional<PlanFound> straddling_human(const CurveTree& tree, const Limbs& li
   found.arms = find_arms(tree, limbs, found.legs.front());
   name_biped(tree, limbs, found);
   if (found.plan != BodyKind::humanoid) return std::nullopt;
+  found.is_astride = true;
   return found;
 }
 
@@ -264,7 +265,7 @@ PlanFound classify(const CurveTree& tree, const Limbs& limbs, BodyKind wanted, S
     found.legs.clear();
     return found;
   }
-  if (legs == 0 && (wanted == BodyKind::automatic || wanted == BodyKind::humanoid)) {
+  if (legs == 0 && wanted == BodyKind::humanoid) {
     if (const std::optional<PlanFound> human = straddling_human(tree, limbs)) return *human;
   }
   if (legs == 0) {

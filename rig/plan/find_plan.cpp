@@ -222,7 +222,7 @@ std::optional<Outlook> human_instead(const Outlook& animal, const Surface& surfa
   asked.by_proportion = false;
   Outlook human = best_outlook(surface, skeleton, asked);
   const bool is_one = human.found.plan == BodyKind::humanoid && !human.found.is_forced &&
-                      human.tree.cycles == 0 && has_trunk(human) &&
+                      !human.found.is_astride && human.tree.cycles == 0 && has_trunk(human) &&
                       explained_by(human).share >= most_of_it &&
                       why_a_thing(human, surface, asked).empty();
   return is_one ? std::optional<Outlook>(std::move(human)) : std::nullopt;

@@ -177,6 +177,17 @@ Outlook best_of_flat_parts(LookedAt& body, const PlanOptions& options) {
   return best;
 }
 
+/// With legs wide apart, as in a star jump; in the usual frame alone, as from above any disc on
+/// four legs is one, and if that is all there is.
+std::optional<Outlook> human_astride(LookedAt& body, const Eigen::Matrix3d& axes) {
+  Outlook other = look(Sides::images, body, axes, BodyKind::humanoid);
+  const bool is_human = other.found.plan == BodyKind::humanoid && !other.found.is_forced &&
+                        asymmetry(other.tree, 0, other.tree.middle) < symmetric &&
+                        explained_by(other).share >= most_of_it && has_trunk(other);
+  if (!is_human) return std::nullopt;
+  return other;
+}
+
 Outlook best_of_tubes(LookedAt& body, const PlanOptions& options) {
   const std::vector<Eigen::Matrix3d> frames = frames_of(options);
   Refusal refusal;
@@ -198,6 +209,9 @@ Outlook best_of_tubes(LookedAt& body, const PlanOptions& options) {
     Outlook other = look(Sides::completed, body, frames[k], options.plan);
     // From the side one arm hides the other, or seems to be missing.
     if (is_whole_but_for_a_limb(other) && !shows_side(other.tree)) best = std::move(other);
+  }
+  if (best.found.plan == BodyKind::other && options.plan == BodyKind::automatic) {
+    if (std::optional<Outlook> human = human_astride(body, frames.front())) return *human;
   }
   if (best.found.plan == BodyKind::other && refusal.length >= 0) {
     best.found.reason = refusal.reason;

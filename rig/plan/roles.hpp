@@ -45,6 +45,7 @@ struct PlanFound {
   int arms = -1;                      ///< pair; -1 = none
   bool spreads_wings = false;         ///< a bird whose arms are flat, see `flat_wings`
   bool is_forced = false;             ///< as asked: the curve shows another plan, or none
+  bool is_astride = false;            ///< on legs wide apart
   double lean = 0;                    ///< of a biped's trunk from upright, in degrees
   std::optional<HiddenLimbs> hidden;  ///< of a human who is asked for, of whom limbs are not seen
 };

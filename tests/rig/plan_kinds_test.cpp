@@ -134,6 +134,18 @@ TEST(FindPlan, LegsMayBeWideApart) {
   }
 }
 
+TEST(FindPlan, ADiscOnSprawlingLegsIsNoHuman) {
+  BodyCurve figure;
+  const int rear = figure.add({0, 8, -3}, 2);
+  const int front = figure.add({0, 8.5, 3}, 2, rear);
+  figure.add({0, 9, 6}, 1.5, front);
+  figure.add_pair(rear, {{3, 8, -3}, {7, 6, -5}, {9.5, 0.6, -6}}, 0.6);
+  figure.add_pair(front, {{4, 7, 3}, {7, 7, 5}, {9, 5, 6}}, 0.6);
+  const RigSubject subject = subject_of("disc on legs", figure);
+  const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+  EXPECT_NE(plan.plan, BodyKind::humanoid) << plan.reason;
+}
+
 TEST(FindPlan, RaisedArmsLeaveTheNeckBelowTheHead) {
   BodyCurve figure;
   const int chest = add_body_without_arms(figure);
