@@ -31,6 +31,29 @@ class Evaluate(CommandLineTest):
         self.assertIn("the certificate failed", result.err)
         self.assertIn("e.json", self.files())
 
+    def moved(self, name, place):
+        """The skeleton y.obj with each node at place(x, y, z)."""
+        lines = [line if not line.startswith("v ") else
+                 " ".join(["v", *map(str, place(*map(float, line.split()[1:])))])
+                 for line in (self.folder / "y.obj").read_text().splitlines()]
+        (self.folder / name).write_text("\n".join(lines) + "\n")
+        return name
+
+    def test_a_skeleton_elsewhere_is_of_another_surface(self):
+        self.run_ok("extract", Y, "-o", "y.obj", cwd=self.folder)
+        shifted = self.moved("shifted.obj", lambda x, y, z: (x, y, z + 20))
+        result = run("evaluate", Y, shifted, cwd=self.folder)
+        self.assertEqual(result.code, 5, result.err)
+        self.assertIn("no node of the skeleton is inside the surface", result.err)
+
+    def test_a_skeleton_in_another_unit_is_warned_of(self):
+        self.run_ok("extract", Y, "-o", "y.obj", cwd=self.folder)
+        for factor in (0.001, 0.01, 100, 1000):
+            scaled = self.moved("scaled.obj", lambda *place: [factor * x for x in place])
+            result = run("evaluate", Y, scaled, cwd=self.folder)
+            self.assertIn(f"times {1 / factor:g} they would", result.err)
+            self.assertIn("export both in one unit", result.err)
+
     def test_strict_makes_a_failed_certificate_an_error(self):
         self.run_ok("extract", Y, "-o", "y.obj", cwd=self.folder)
         self.run_ok("evaluate", Y, "y.obj", "--strict", cwd=self.folder)
@@ -40,11 +63,7 @@ class Evaluate(CommandLineTest):
 
     def test_against_another_skeleton_gives_the_distance(self):
         self.run_ok("extract", Y, "-o", "y.obj", cwd=self.folder)
-        moved = [line if not line.startswith("v ") else
-                 " ".join(["v", *(str(float(x) + (0.1 if i == 0 else 0))
-                                  for i, x in enumerate(line.split()[1:]))])
-                 for line in (self.folder / "y.obj").read_text().splitlines()]
-        (self.folder / "moved.obj").write_text("\n".join(moved) + "\n")
+        self.moved("moved.obj", lambda x, y, z: (x + 0.1, y, z))
         distances = []
         for other in ("y.obj", "moved.obj"):
             self.run_ok("evaluate", Y, "y.obj", "--against", other, "--json", "e.json",

@@ -65,6 +65,23 @@ class Rig(CommandLineTest):
         self.refused(3, "rig", Y, "-o", "y.glb", "--skeleton", "x.json",
                      says=["x.json", "a node for each of", "extract it again"], cwd=self.folder)
 
+    def test_of_a_skeleton_that_leaves_the_surface_says_so(self):
+        self.run_ok("extract", Y, "-o", "y.obj", cwd=self.folder)
+        lines = (self.folder / "y.obj").read_text().splitlines()
+        half = [line if not line.startswith("v ") else
+                f"v {' '.join(str(float(x) * 0.6 + 2) for x in line.split()[1:3])} {line.split()[3]}"
+                for line in lines]
+        (self.folder / "half.obj").write_text("\n".join(half) + "\n")
+        result = self.run_ok("rig", Y, "-o", "y.glb", "--skeleton", "half.obj", cwd=self.folder)
+        self.assertRegex(result.err, r"warning: [0-9.]+ % of the length of the skeleton given")
+        result = self.run_ok("rig", Y, "-o", "y.glb", "--skeleton", "y.obj", cwd=self.folder)
+        self.assertNotIn("warning", result.err)
+
+    def test_a_skeleton_for_joints_is_called_one(self):
+        self.run_ok("extract", Y, "-o", "y.json", cwd=self.folder)
+        self.refused(3, "rig", Y, "-o", "y.glb", "--joints", "y.json", cwd=self.folder,
+                     says=["a skeleton's nodes", "--skeleton"])
+
     def test_of_a_skeleton_without_vertices_has_the_same_plan(self):
         spot = MESHES / "free" / "spot-3k.obj"
         self.run_ok("extract", spot, "-o", "s.json", "-o", "s.ply", "-o", "s.swc", "-q",
@@ -222,6 +239,9 @@ class Rig(CommandLineTest):
         self.refused(2, "rig", Y, "-o", "y.glb", "--root", "3", "--plan", "humanoid",
                      cwd=self.folder, says=["--root 3", "--plan humanoid", "leave out"])
         self.run_ok("rig", Y, "-o", "y.glb", "--root", "3", "--plan", "none", cwd=self.folder)
+        self.run_ok("rig", Y, "-o", "joints.json", cwd=self.folder)
+        self.refused(2, "rig", Y, "-o", "y.glb", "--joints", "joints.json", "--pose", "t",
+                     cwd=self.folder, says=["--pose", "--joints"])
 
     def test_a_vrm_is_of_a_human_that_somebody_has_made(self):
         self.refused(2, "rig", Y, "-o", "y.vrm", cwd=self.folder,
