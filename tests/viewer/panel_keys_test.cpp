@@ -7,6 +7,7 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
+#include <functional>
 #include <set>
 #include <string>
 #include <utility>
@@ -66,6 +67,16 @@ class Typed : public testing::Test {
     io.KeyShift = false;
     settle();
   }
+  void prune_something() {
+    Pick edge;
+    edge.kind = Pick::Kind::edge;
+    edge.index = 0;
+    bench.select(edge, false);
+    bench.prune();
+    ASSERT_TRUE(bench.history().unsaved());
+    settle();
+  }
+  static void point_at_the_model() { ImGui::GetIO().MousePos = {width / 2, height * 0.42F}; }
   [[nodiscard]] std::size_t moment() const { return bench.scene->moment; }
   [[nodiscard]] static ImGuiID at() { return ImGui::GetCurrentContext()->NavId; }
   [[nodiscard]] static std::string panel() {
@@ -215,6 +226,33 @@ TEST_F(Typed, AJointIsChosenInTheListBySpaceAndByEnter) {
   EXPECT_EQ(bench.selected_joint(), 1);
   type(GLFW_KEY_ENTER);
   EXPECT_EQ(bench.selected_joint(), -1);
+}
+
+// It ended the program, with all corrections.
+TEST_F(Typed, ADialogueMayOpenByAKeyWhileThePointerRestsOnTheModel) {
+  prune_something();
+  point_at_the_model();
+  bench.wants_to_abandon.emplace();  // as Ctrl-Q does
+  settle();
+  type(GLFW_KEY_S);
+  EXPECT_TRUE(panels.browser.shown());
+  EXPECT_FALSE(bench.wants_to_abandon);
+}
+
+TEST_F(Typed, ADialogueMayOpenInTheFrameInWhichThePointerComesToTheModel) {
+  for (const auto& ask : {std::function<void()>([&] { ask_to_open(panels); }),
+                          {[&] { bench.wants_to_abandon.emplace(); }},
+                          {[&] { bench.wants_to_replace = "y.json"; }}}) {
+    ImGui::GetIO().MousePos = {-1, -1};
+    settle();
+    point_at_the_model();
+    ask();
+    settle();
+    EXPECT_TRUE(is_list_open());
+    type(GLFW_KEY_ESCAPE);
+    settle();
+    EXPECT_FALSE(is_list_open());
+  }
 }
 
 TEST_F(Typed, ArrowsInTheDialogueNameFilesOneAfterTheOther) {

@@ -199,6 +199,12 @@ void hint(const Workbench& bench, const Area& picture) {
                                           ImGui::GetColorU32(ImGuiCol_TextDisabled), text.c_str());
 }
 
+void description_at_pointer(const Workbench& bench, const Panels& panels) {
+  const std::string hovered = description_of(panels.hovered, bench);
+  if (hovered.empty() || ImGui::GetIO().WantCaptureMouse) return;
+  ImGui::SetTooltip("%s", hovered.c_str());
+}
+
 std::string missing_of(const VrmMeta& meta) {
   if (meta.name.empty() || meta.author.empty() || meta.licence_url.empty()) {
     return "a .vrm file needs the name of its figure, an author and a licence: fill in the fields "
@@ -447,13 +453,12 @@ void draw_panels(Workbench& bench, Panels& panels, const Layout& layout) {
   status_bar(bench, panels, layout.status);
   messages(bench, layout.picture, panels.scale);
   hint(bench, layout.picture);
+  // Dialogues come last: in the frame in which one appears, ImGui 1.86 aborts where another window
+  // appears after it.
+  description_at_pointer(bench, panels);
   help(panels);
   browser(bench, panels);
   questions(bench, panels);
-  const std::string hovered = description_of(panels.hovered, bench);
-  if (!hovered.empty() && !ImGui::GetIO().WantCaptureMouse) {
-    ImGui::SetTooltip("%s", hovered.c_str());
-  }
 }
 
 void style_panels(Theme theme, float scale) {

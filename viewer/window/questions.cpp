@@ -86,7 +86,7 @@ void ask_to_abandon(Workbench& bench, Panels& panels) {
 
 void questions(Workbench& bench, Panels& panels) {
   ask_to_replace(bench);
-  ask_to_abandon(bench, panels);
+  if (!bench.wants_to_replace) ask_to_abandon(bench, panels);  // one after the other
 }
 
 }  // namespace curveskel::viewer
