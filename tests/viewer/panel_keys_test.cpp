@@ -7,6 +7,7 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <functional>
 #include <set>
 #include <string>
@@ -67,12 +68,12 @@ class Typed : public testing::Test {
     io.KeyShift = false;
     settle();
   }
-  void prune_something() {
+  void correct_something() {
     Pick edge;
     edge.kind = Pick::Kind::edge;
     edge.index = 0;
     bench.select(edge, false);
-    bench.prune();
+    bench.split();
     ASSERT_TRUE(bench.history().unsaved());
     settle();
   }
@@ -230,7 +231,7 @@ TEST_F(Typed, AJointIsChosenInTheListBySpaceAndByEnter) {
 
 // It ended the program, with all corrections.
 TEST_F(Typed, ADialogueMayOpenByAKeyWhileThePointerRestsOnTheModel) {
-  prune_something();
+  correct_something();
   point_at_the_model();
   bench.wants_to_abandon.emplace();  // as Ctrl-Q does
   settle();
@@ -240,6 +241,7 @@ TEST_F(Typed, ADialogueMayOpenByAKeyWhileThePointerRestsOnTheModel) {
 }
 
 TEST_F(Typed, ADialogueMayOpenInTheFrameInWhichThePointerComesToTheModel) {
+  correct_something();
   for (const auto& ask : {std::function<void()>([&] { ask_to_open(panels); }),
                           {[&] { bench.wants_to_abandon.emplace(); }},
                           {[&] { bench.wants_to_replace = "y.json"; }}}) {
@@ -252,6 +254,50 @@ TEST_F(Typed, ADialogueMayOpenInTheFrameInWhichThePointerComesToTheModel) {
     type(GLFW_KEY_ESCAPE);
     settle();
     EXPECT_FALSE(is_list_open());
+  }
+}
+
+TEST_F(Typed, SaveInTheQuestionGoesOnOnceItIsSaved) {
+  const OwnFolder folder;
+  for (const std::vector<std::filesystem::path>& next :
+       {std::vector<std::filesystem::path>{}, {mesh_called("torus.off")}}) {
+    correct_something();
+    panels.browser.go_to(folder.path());
+    const auto answer = [&](int key) {
+      bench.wants_to_abandon = next;
+      settle();
+      type(GLFW_KEY_S);
+      type(key);
+      EXPECT_FALSE(panels.browser.shown());
+    };
+    answer(GLFW_KEY_ESCAPE);  // no file is named
+    bench.save(folder.path() / "picture.png", true);
+    EXPECT_FALSE(bench.wants_to_leave || bench.opening());
+    const auto saved = folder.path() / "y.json";
+    answer(GLFW_KEY_ENTER);
+    EXPECT_TRUE(std::filesystem::remove(saved));
+    EXPECT_EQ(std::exchange(bench.wants_to_leave, false), next.empty());
+    EXPECT_EQ(bench.opening(), !next.empty());
+  }
+}
+
+// Ctrl-Q ended the program without a word, and there was no file.
+TEST_F(Typed, LeavingAsksWhileARigIsMadeForASave) {
+  const OwnFolder folder;
+  for (const auto& [key, leaves] : {std::pair{GLFW_KEY_W, true}, {GLFW_KEY_ESCAPE, false}}) {
+    bench.undo();
+    correct_something();  // so that there is no rig
+    const auto file = folder.path() / (leaves ? "left.glb" : "stayed.glb");
+    bench.save(file);
+    ASSERT_TRUE(bench.would_lose());
+    bench.wants_to_abandon.emplace();
+    settle();
+    EXPECT_TRUE(is_list_open());
+    type(key);
+    EXPECT_FALSE(is_list_open());
+    ASSERT_TRUE(wait_for(bench, [&] { return !bench.busy(); }));
+    EXPECT_TRUE(std::filesystem::exists(file));
+    EXPECT_EQ(std::exchange(bench.wants_to_leave, false), leaves);
   }
 }
 

@@ -83,15 +83,16 @@ class Viewer {
   }
 
  private:
-  /// Whoever closes the window is asked first if corrections would be lost.
+  /// Whoever closes the window is asked first if something would be lost.
   [[nodiscard]] bool leaves() {
     if (session_.interruption.token().stop_requested() || panels_.may_leave) return true;
-    if (glfwWindowShouldClose(window_.get()) == GLFW_FALSE && !controls_.wants_to_leave) {
+    if (glfwWindowShouldClose(window_.get()) == GLFW_FALSE && !controls_.wants_to_leave &&
+        !bench_.wants_to_leave) {
       return false;
     }
-    if (!bench_.history().unsaved()) return true;
+    if (!bench_.would_lose()) return true;
     glfwSetWindowShouldClose(window_.get(), GLFW_FALSE);
-    controls_.wants_to_leave = false;
+    controls_.wants_to_leave = bench_.wants_to_leave = false;
     bench_.wants_to_abandon.emplace();
     awake();
     return false;
