@@ -77,6 +77,30 @@ class Typed : public testing::Test {
     ASSERT_TRUE(bench.history().unsaved());
     settle();
   }
+  void click(const ImVec2& place) {
+    ImGuiIO& io = ImGui::GetIO();
+    io.MousePos = place;
+    settle();
+    for (const bool down : {true, false}) {
+      io.MouseDown[0] = down;
+      frame();
+    }
+    settle();
+  }
+  /// Of that to which keys have come.
+  [[nodiscard]] static ImVec2 middle_of_control_in(const ImGuiWindow& window) {
+    const ImVec2 middle = window.NavRectRel[0].GetCenter();
+    const ImVec2 start = window.DC.CursorStartPos;
+    return {start.x + middle.x, start.y + middle.y};
+  }
+  /// The middle of a control, to which Tab has come.
+  [[nodiscard]] ImVec2 place_of(const char* panel_name, const char* label) {
+    const ImGuiWindow* const window = ImGui::FindWindowByName(panel_name);
+    const ImGuiID wanted = const_cast<ImGuiWindow*>(window)->GetID(label);
+    for (int tabs = 0; tabs < 80 && at() != wanted; ++tabs) type(GLFW_KEY_TAB);
+    EXPECT_EQ(at(), wanted) << label;
+    return middle_of_control_in(*window);
+  }
   static void point_at_the_model() { ImGui::GetIO().MousePos = {width / 2, height * 0.42F}; }
   [[nodiscard]] std::size_t moment() const { return bench.scene->moment; }
   [[nodiscard]] static ImGuiID at() { return ImGui::GetCurrentContext()->NavId; }
@@ -299,6 +323,86 @@ TEST_F(Typed, LeavingAsksWhileARigIsMadeForASave) {
     EXPECT_TRUE(std::filesystem::exists(file));
     EXPECT_EQ(std::exchange(bench.wants_to_leave, false), leaves);
   }
+}
+
+TEST_F(Typed, AQuestionIsAnsweredByArrowsAndEnter) {
+  correct_something();
+  bench.wants_to_abandon.emplace();
+  settle();
+  const auto is_at = [](const char* label) {
+    return at() == ImGui::FindWindowByName("Discard corrections?")->GetID(label);
+  };
+  EXPECT_TRUE(are_for_panels()) << "a frame stands round it";
+  EXPECT_TRUE(is_at("Stay"));
+  type(GLFW_KEY_LEFT);
+  EXPECT_TRUE(is_at("Discard"));
+  type(GLFW_KEY_RIGHT);
+  type(GLFW_KEY_ENTER);
+  EXPECT_FALSE(bench.wants_to_abandon);
+  EXPECT_FALSE(panels.may_leave);
+  EXPECT_FALSE(are_for_panels());
+  bench.wants_to_abandon.emplace();
+  settle();
+  type(GLFW_KEY_LEFT);
+  type(GLFW_KEY_ENTER);
+  EXPECT_TRUE(panels.may_leave);
+}
+
+TEST_F(Typed, AKeyThatWentDownBeforeAQuestionIsNoAnswer) {
+  correct_something();
+  for (const int key : {GLFW_KEY_ENTER, GLFW_KEY_SPACE}) {
+    ImGui::GetIO().KeysDown[key] = true;
+    frame();
+    bench.wants_to_abandon.emplace();
+    settle();
+    EXPECT_TRUE(bench.wants_to_abandon);
+    ImGui::GetIO().KeysDown[key] = false;
+    settle();
+    EXPECT_TRUE(bench.wants_to_abandon);
+    type(key);
+    EXPECT_FALSE(bench.wants_to_abandon);
+  }
+}
+
+TEST_F(Typed, AQuestionIsAnsweredByTheMouse) {
+  correct_something();
+  bench.wants_to_abandon.emplace();
+  settle();
+  click(middle_of_control_in(*ImGui::FindWindowByName("Discard corrections?")));
+  EXPECT_FALSE(bench.wants_to_abandon);
+  EXPECT_FALSE(is_list_open());
+}
+
+TEST_F(Typed, AListThatTheMouseOpenedIsUsedByArrowsAndEnter) {
+  for (const bool by_tab : {false, true}) {
+    const ImVec2 list = place_of("look", "surface");
+    const SurfaceStyle before = bench.scene->look.surface;
+    const std::size_t shown = moment();
+    if (!by_tab) type(GLFW_KEY_ESCAPE);
+    EXPECT_EQ(are_for_panels(), by_tab);
+    click(list);
+    ASSERT_TRUE(is_list_open());
+    type(GLFW_KEY_DOWN);
+    type(GLFW_KEY_ENTER);
+    EXPECT_FALSE(is_list_open());
+    EXPECT_NE(bench.scene->look.surface, before);
+    type(GLFW_KEY_HOME);
+    EXPECT_EQ(moment(), 0) << "keys are for the picture again";
+    bench.go_to(shown);
+    settle();
+  }
+}
+
+TEST_F(Typed, AClickInThePictureClosesAListAndCounts) {
+  const ImVec2 list = place_of("look", "surface");
+  type(GLFW_KEY_ESCAPE);
+  click(list);
+  ASSERT_TRUE(is_list_open());
+  bench.clear_selection();
+  point_at_the_model();
+  click(ImGui::GetIO().MousePos);
+  EXPECT_FALSE(is_list_open());
+  EXPECT_TRUE(bench.selected_edge() >= 0 || !bench.selected_nodes().empty());
 }
 
 TEST_F(Typed, ArrowsInTheDialogueNameFilesOneAfterTheOther) {

@@ -361,8 +361,7 @@ class Correcting(WindowTest):
         window.changes("Delete", least=0.0005)
         before = (self.folder / "cross.json").read_bytes()
         window.type_into_dialogue("ctrl+s", str(self.folder / "cross.json"))
-        window.key("Return")  # no answer to the question
-        window.changes("Escape", least=0.05)
+        window.changes("Return", least=0.05)  # the answer that is marked: keep it
         self.assertEqual((self.folder / "cross.json").read_bytes(), before)
         self.assertEqual(self.counts(window, "other.json")[1], 3)
         self.leave(window)

@@ -167,7 +167,8 @@ void Controls::mouse(Workbench& bench, Panels& panels, const Area& picture) {
   const ImGuiIO& io = ImGui::GetIO();
   scale_ = panels.scale;
   const glm::vec2 at = pointer_in(picture);
-  const bool over = !io.WantCaptureMouse && holds(picture, at);
+  // A click that closes a list counts as well.
+  const bool over = !io.WantCaptureMouseUnlessPopupClose && holds(picture, at);
   bool began = false;
   if (drag_ == Drag::none) {
     panels.hovered = over ? pick(*bench.scene, at, static_cast<int>(picture.width),
@@ -283,13 +284,19 @@ void Controls::time_keys(Workbench& bench) const {
 }
 
 /// The panels appear where they were hidden.
-void Controls::heed_tab(Panels& panels, bool dialogue) {
-  if (panel_keys_.begin(dialogue) && !dialogue) panels.shown = true;
+void Controls::heed_tab(const Workbench& bench, Panels& panels) {
+  using Over = PanelKeys::Over;
+  const bool question = bench.wants_to_replace || bench.wants_to_abandon;
+  const bool dialogue = question || panels.browser.shown();
+  const Over over = question         ? Over::question
+                    : dialogue       ? Over::dialogue
+                    : is_list_open() ? Over::list
+                                     : Over::nothing;
+  if (panel_keys_.begin(over) && !dialogue) panels.shown = true;
 }
 
 void Controls::keys(Workbench& bench, Panels& panels, const Area& picture) {
-  const bool dialogue = panels.browser.shown() || bench.wants_to_replace || bench.wants_to_abandon;
-  heed_tab(panels, dialogue);
+  heed_tab(bench, panels);
   if (pressed(GLFW_KEY_ESCAPE)) escape(bench, panels);
   // WantTextInput outlives the field by a frame.
   const bool typing = ImGui::GetIO().WantTextInput && ImGui::IsAnyItemActive();

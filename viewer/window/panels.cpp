@@ -359,6 +359,7 @@ bool tick(const char* label, bool& value) {
 bool list_line(const char* label, bool present) {
   const bool chosen = ImGui::Selectable(label, present);
   if (present && ImGui::IsWindowAppearing()) ImGui::SetScrollHereY();
+  if (present) ImGui::SetItemDefaultFocus();
   return chosen;
 }
 

@@ -20,8 +20,7 @@ struct Choice {
   char key;  // 0 = Esc, which the controls hear
 };
 
-/// The number of the choice made in this frame, or -1. Not by Enter, which may have ended the
-/// dialogue before.
+/// The number of the choice made in this frame, or -1.
 int draw_choices(std::span<const Choice> offered) {
   int chosen = -1;
   const float width = 6 * ImGui::GetFontSize();
