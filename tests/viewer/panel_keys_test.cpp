@@ -422,6 +422,29 @@ TEST_F(Typed, ArrowsInTheDialogueNameFilesOneAfterTheOther) {
   EXPECT_EQ(bench.messages().back().text, "opening b.off");
 }
 
+// The name had a NUL in it, so that nothing was saved.
+TEST_F(Typed, ANameWithAnEmojiIsSavedAsItIsAndEdited) {
+  const OwnFolder folder;
+  const std::string fox = "\U0001F98A";
+  const auto inner = folder.path() / fox;
+  std::filesystem::create_directory(inner);
+  panels.browser.go_to(inner);
+  panels.browser.ask(FileBrowser::Purpose::save, "Save the skeleton", fox + ".json");
+  settle();
+  type(GLFW_KEY_ENTER);
+  EXPECT_FALSE(panels.browser.shown()) << panels.browser.name();
+  EXPECT_TRUE(std::filesystem::exists(inner / (fox + ".json"))) << bench.messages().back().text;
+  panels.browser.ask(FileBrowser::Purpose::save, "Save the skeleton", fox + ".json");
+  settle();
+  type(GLFW_KEY_END);
+  for (int letters = 0; letters < 4; ++letters) type(GLFW_KEY_BACKSPACE);
+  ImGui::GetIO().AddInputCharactersUTF8((fox + "ply").c_str());  // no field can hold the first
+  settle();
+  EXPECT_EQ(panels.browser.name(), fox + ".ply");
+  type(GLFW_KEY_ENTER);
+  EXPECT_TRUE(std::filesystem::exists(inner / (fox + ".ply"))) << bench.messages().back().text;
+}
+
 TEST_F(Typed, AVrmFileIsNotChosenBeforeItsTextsAreThere) {
   const OwnFolder folder;
   panels.browser.go_to(folder.path());
@@ -462,11 +485,13 @@ TEST_F(Typed, TheTextsOfAVrmFileAreTypedInOneGo) {
   type(GLFW_KEY_TAB);
   write("no address");
   EXPECT_TRUE(panels.browser.shown());
+  EXPECT_TRUE(panels.browser.lacks_fields());
   EXPECT_EQ(bench.vrm.name, "a figure");
   EXPECT_EQ(bench.vrm.author, "an author");
   EXPECT_EQ(bench.vrm.licence_url, "no address");
   for (int letters = 0; letters < 10; ++letters) type(GLFW_KEY_BACKSPACE);
   write("https://vrm.dev/licenses/1.0/");
+  EXPECT_FALSE(panels.browser.lacks_fields()) << "it is no longer said";
   type(GLFW_KEY_ENTER);
   EXPECT_FALSE(panels.browser.shown()) << bench.vrm.licence_url;
 }

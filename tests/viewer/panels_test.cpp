@@ -205,6 +205,30 @@ TEST_F(OnScreen, AWorkingDirectoryThatIsGoneIsNoEnd) {
   std::filesystem::current_path(before);
 }
 
+// What follows "##" was left out.
+TEST_F(OnScreen, TheFileWindowListsWholeNames) {
+  const auto drawn = [&](const char* name) {
+    const OwnFolder listed;
+    (void)listed.write(name, "OFF\n");
+    FileBrowser browser;
+    browser.go_to(listed.path());
+    browser.ask(FileBrowser::Purpose::open, "Open", "");
+    for (int settles = 0; settles < 3; ++settles) frame([&] { (void)browser.draw(); });
+    const auto& windows = ImGui::GetCurrentContext()->Windows;
+    const auto* const files = std::find_if(
+        windows.begin(), windows.end(),
+        [](const ImGuiWindow* one) { return std::string(one->Name).starts_with("Open/files"); });
+    const int corners = files == windows.end() ? 0 : (*files)->DrawList->VtxBuffer.size();
+    browser.close();
+    for (int settles = 0; settles < 3; ++settles) frame([&] { (void)browser.draw(); });
+    return corners;
+  };
+  EXPECT_GT(drawn("a.off"), 0);
+  EXPECT_GT(drawn("aaaab.off"), drawn("a.off"));
+  EXPECT_EQ(drawn("a##ab.off"), drawn("aaaab.off"));
+  EXPECT_EQ(drawn("##aab.off"), drawn("aaaab.off"));
+}
+
 TEST_F(OnScreen, TheFileWindowIsAsLargeAsItsLetters) {
   const auto size = [&](float scale) {
     ImGui::GetIO().FontGlobalScale = scale;

@@ -219,13 +219,17 @@ std::string missing_of(const VrmMeta& meta) {
 }
 
 /// VRM's files must have these.
-FieldsForName vrm_fields(VrmMeta& meta) {
-  const auto draw = [&meta](bool focuses) {
-    const auto field = [&focuses](const char* label, const char* hint, std::string& text,
-                                  bool lacks) {
+FieldsForName vrm_fields(VrmMeta& meta, FieldText& texts) {
+  const auto draw = [&meta, &texts](bool focuses) {
+    const auto field = [&focuses, &texts](const char* label, const char* hint, std::string& text,
+                                          bool lacks) {
       if (lacks && std::exchange(focuses, false)) ImGui::SetKeyboardFocusHere();
       ImGui::SetNextItemWidth(-5 * ImGui::GetFontSize());
-      return ImGui::InputTextWithHint(label, hint, &text, ImGuiInputTextFlags_EnterReturnsTrue);
+      std::string shown = texts.in_field(text);
+      const bool entered =
+          ImGui::InputTextWithHint(label, hint, &shown, ImGuiInputTextFlags_EnterReturnsTrue);
+      text = texts.from_field(shown);
+      return entered;
     };
     const bool first = field("figure", "its name", meta.name, meta.name.empty());
     const bool second = field("author", "who made the figure", meta.author, meta.author.empty());
@@ -236,7 +240,7 @@ FieldsForName vrm_fields(VrmMeta& meta) {
 }
 
 void browser(Workbench& bench, Panels& panels) {
-  const auto chosen = panels.browser.draw(vrm_fields(bench.vrm));
+  const auto chosen = panels.browser.draw(vrm_fields(bench.vrm, panels.vrm_texts));
   if (!chosen) return;
   if (panels.browser.purpose() == FileBrowser::Purpose::open) {
     bench.open({*chosen});
@@ -276,7 +280,7 @@ std::string description_of_joint(int joint, const Rig& rig) {
 void ask_to_open(Panels& panels) {
   panels.browser.ask(FileBrowser::Purpose::open, "Open a surface or a skeleton", "",
                      "Surfaces: " + names_in(surface_formats) +
-                         ", also as .gz. Skeletons: obj, ply, cgal, swc, vtp, graphml, json.");
+                         ", vrm, also as .gz. Skeletons: obj, ply, cgal, swc, vtp, graphml, json.");
 }
 
 void ask_to_save(const Workbench& bench, Panels& panels) {
