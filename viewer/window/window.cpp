@@ -212,12 +212,8 @@ class Viewer {
       letters_.want(in_reading_order(name));
     });
     if (letters_.update()) window_.renew_letters();
-    if (letters_.take_lacking()) {
-      bench_.say(
-          "a name has characters that no font of this system has, so that they are shown as ?; "
-          "Debian's fonts-noto-cjk has those of Chinese, Japanese and Korean, fonts-noto-core "
-          "those of most other scripts");
-    }
+    const std::string lacking = letters_.take_lacking();
+    if (!lacking.empty()) bench_.say(lacking);
   }
 
   /// Actions of panels and keys are done at once.
