@@ -192,6 +192,20 @@ TEST_F(OnScreen, NothingInAPanelIsWiderThanThePanel) {
   }
 }
 
+// The second column was cut.
+TEST_F(OnScreen, TheHelpIsNoWiderThanTheWindow) {
+  panels.help = true;
+  for (const ImVec2& size : {ImVec2{1200, 800}, {640, 480}, {400, 300}, {300, 200}}) {
+    ImGui::GetIO().DisplaySize = size;
+    for (int settles = 0; settles < 4; ++settles) {
+      frame([&] { draw_panels(bench, panels, lay_out(size.x, size.y, 1, true)); });
+    }
+    const ImGuiWindow* const help = ImGui::FindWindowByName("Help");
+    EXPECT_LE(help->Size.x, size.x);
+    EXPECT_LE(help->ContentSize.x, help->WorkRect.GetWidth() + 1) << size.x;
+  }
+}
+
 // It ended the program, with all corrections.
 TEST_F(OnScreen, AWorkingDirectoryThatIsGoneIsNoEnd) {
   const std::filesystem::path before = std::filesystem::current_path();

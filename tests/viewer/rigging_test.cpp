@@ -363,9 +363,19 @@ TEST_F(Rigging, SaysHowSheetsGetJoints) {
     return (bench.scene->rig()->joints.col(0).array() > 7.1).count();
   };
   EXPECT_EQ(joints_in_the_wing(0), 0);
-  EXPECT_NE(last_said().find("--least-sheet 0.1"), std::string::npos) << last_said();
+  EXPECT_NE(last_said().find("least sheet of 0.1"), std::string::npos) << last_said();
   EXPECT_GE(joints_in_the_wing(0.1), 1);
-  EXPECT_EQ(last_said().find("--least-sheet"), std::string::npos) << last_said();
+  EXPECT_EQ(last_said().find("least sheet"), std::string::npos) << last_said();
+}
+
+TEST_F(Rigging, OfSheetsFollowsTheLeastSheetOfTheNextRun) {
+  bench.open({folder.write("wing.obj", y_with_a_wing())});
+  ASSERT_TRUE(wait([&] { return bench.result() != nullptr && !bench.busy(); }));
+  bench.pipeline.repair.least_sheet = 0.1;  // as the slider does
+  bench.start(false);
+  ASSERT_TRUE(wait([&] { return !bench.busy(); }));
+  make_rig();
+  EXPECT_GE((bench.scene->rig()->joints.col(0).array() > 7.1).count(), 1);
 }
 
 TEST_F(Rigging, NeedsASkeletonAndSaysSo) {

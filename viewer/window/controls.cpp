@@ -248,7 +248,11 @@ void Controls::look_keys(Workbench& bench, Panels& panels, const Area& picture) 
   if (pressed(GLFW_KEY_K)) next(look.skeleton, skeleton_styles);
   if (pressed(GLFW_KEY_L)) next(look.theme, themes);
   if (pressed(GLFW_KEY_E)) look.edges = !look.edges;
-  if (pressed(GLFW_KEY_B)) look.transparent_background = !look.transparent_background;
+  if (pressed(GLFW_KEY_B)) {
+    look.transparent_background = !look.transparent_background;
+    bench.say(look.transparent_background ? "pictures (F12) will have no background"
+                                          : "pictures (F12) will have their background");
+  }
   if (pressed(GLFW_KEY_H) || pressed(GLFW_KEY_F1)) panels.help = !panels.help;
   if (pressed(GLFW_KEY_P)) {
     panels.shown = !panels.shown;

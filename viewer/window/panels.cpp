@@ -115,7 +115,8 @@ void messages(const Workbench& bench, const Area& picture, float scale) {
   }
 }
 
-/// The second column is wrapped where the window is narrow.
+/// The second column is wrapped where the window is narrow, and below the first where that leaves
+/// it no room.
 template <std::size_t Count>
 void help_lines(const std::array<std::array<const char*, 2>, Count>& lines, float screen) {
   float keys_width = 0;
@@ -125,7 +126,18 @@ void help_lines(const std::array<std::array<const char*, 2>, Count>& lines, floa
     widest = std::max(widest, ImGui::CalcTextSize(meaning).x);
   }
   const float margin = 4 * ImGui::GetFontSize();
-  const float room = std::max(screen - keys_width - margin, 8 * ImGui::GetFontSize());
+  const float room = screen - keys_width - margin;
+  if (room < 8 * ImGui::GetFontSize()) {
+    ImGui::PushTextWrapPos(screen - margin);
+    for (const auto& [keys, meaning] : lines) {
+      ImGui::TextUnformatted(keys);
+      ImGui::Indent();
+      ImGui::TextUnformatted(meaning);
+      ImGui::Unindent();
+    }
+    ImGui::PopTextWrapPos();
+    return;
+  }
   if (!ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) return;
   for (const auto& [keys, meaning] : lines) {
     ImGui::TableNextColumn();
@@ -167,7 +179,7 @@ void help(Panels& panels) {
         {"Space, Left, Right", "run or pause, one moment back or on"},
         {"Home, End", "the input, the newest"},
         {"S  E  K", "how the surface is drawn, its edges, how the skeleton is drawn"},
-        {"L, B", "light or dark, transparent background"},
+        {"L, B", "light or dark, pictures without background"},
         {"Ctrl-O, Ctrl-S, R", "open, save, read again"},
         {"F12", "a picture"},
         {"Ctrl + click on a slider", "type a number"},

@@ -120,8 +120,11 @@ class Workbench {
   void step(bool held = false);
   void cancel();
   void rewind();
-  /// Hides and shows branches of the skeleton that was made, by the detail wanted.
+  /// Hides and shows branches of the skeleton that was made, by the detail wanted. One that was
+  /// corrected has no other levels: its detail stays, and a message says so.
   void show_level();
+  /// The detail wanted is of another run.
+  [[nodiscard]] bool wants_finer_run() const;
   /// The detail of the run that goes on, or of what is shown, of which coarser levels are parts.
   [[nodiscard]] double detail_made() const;
   [[nodiscard]] Run::State run_state() const { return news_.state; }
