@@ -305,6 +305,20 @@ TEST_F(Typed, SaveInTheQuestionGoesOnOnceItIsSaved) {
   }
 }
 
+// It stayed, unseen, and had all keys.
+TEST_F(Typed, AQuestionEndsTheDialogueThatItComesOver) {
+  correct_something();
+  ask_to_open(panels);
+  settle();
+  bench.wants_to_abandon.emplace();  // as the window's close button does
+  settle();
+  EXPECT_FALSE(panels.browser.shown());
+  type(GLFW_KEY_ESCAPE);
+  const std::size_t before = moment();
+  type(GLFW_KEY_LEFT);
+  EXPECT_EQ(moment(), before - 1);
+}
+
 // Ctrl-Q ended the program without a word, and there was no file.
 TEST_F(Typed, LeavingAsksWhileARigIsMadeForASave) {
   const OwnFolder folder;

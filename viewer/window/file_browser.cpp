@@ -217,7 +217,10 @@ std::optional<fs::path> FileBrowser::draw(const FieldsForName& fields) {
       ImGuiCond_Appearing);
   ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Appearing, {0.5F, 0.5F});
   std::optional<fs::path> chosen;
-  if (!ImGui::BeginPopupModal(title, &shown_)) return chosen;
+  if (!ImGui::BeginPopupModal(title, &shown_)) {
+    shown_ = shown_ && ImGui::IsPopupOpen(title);  // a question may have come in its place
+    return chosen;
+  }
   ImGui::TextWrapped("%s", in_reading_order(folder_.string()).c_str());
   draw_error(fields);
   const int lines = 1 + (asks_for(fields) ? fields.lines : 0);
