@@ -19,12 +19,14 @@ class Controlled : public testing::Test {
   Controlled() {
     ImGuiIO& io = ImGui::GetIO();
     io.KeyMap[ImGuiKey_Escape] = GLFW_KEY_ESCAPE;  // as the window does
+    io.KeyMap[ImGuiKey_Space] = GLFW_KEY_SPACE;
     frame();
   }
   void frame(const std::function<void()>& panels_of_test = [] {}) {
     ImGui::NewFrame();
     controls.update(bench, panels, picture);
     panels_of_test();
+    controls.end_frame();
     ImGui::Render();
   }
   void type(

@@ -151,6 +151,27 @@ TEST_F(Corrections, AreNotFloodedByTheSliderOfDetail) {
   EXPECT_EQ(bench.messages().size(), before + 1);
 }
 
+// Above the default it ran anew, and another skeleton came in its place.
+TEST_F(Corrections, StayAtEachDetailThatTheSliderMeets) {
+  open_y();
+  split_an_edge();
+  double& detail = bench.pipeline.extract.embed.detail;
+  const double shown = detail;
+  const auto corrected = bench.scene->skeleton();
+  for (const double wanted : {0.1, 0.6, 1.0}) {
+    detail = wanted;
+    bench.show_level();
+    EXPECT_EQ(detail, shown);
+    EXPECT_FALSE(bench.wants_finer_run());
+    EXPECT_TRUE(bench.messages().back().bad);
+    EXPECT_EQ(bench.scene->skeleton(), corrected);
+  }
+  bench.undo();
+  detail = 0.6;
+  bench.show_level();
+  EXPECT_TRUE(bench.wants_finer_run());
+}
+
 /// Saving takes no file away from anybody.
 class Saving : public Corrections {};
 

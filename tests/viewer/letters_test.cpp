@@ -59,7 +59,7 @@ TEST_F(Written, LettersOfItsOwnFontAreThereInTheSameFrame) {
   }
   letters.want("Нога");
   EXPECT_FALSE(letters.update()) << "they are there already";
-  EXPECT_FALSE(letters.take_lacking());
+  EXPECT_TRUE(letters.take_lacking().empty());
 }
 
 TEST_F(Written, OthersComeFromTheFontsOfTheSystem) {
@@ -73,18 +73,37 @@ TEST_F(Written, OthersComeFromTheFontsOfTheSystem) {
   const ImFont* const font = ImGui::GetIO().Fonts->Fonts[0];
   EXPECT_GE(font->FindGlyph(U'左')->AdvanceX, font->FindGlyph('M')->AdvanceX)
       << "as large as Latin";
-  EXPECT_FALSE(letters.take_lacking());
+  EXPECT_TRUE(letters.take_lacking().empty());
 }
 
 TEST_F(Written, WhatNoFontHasIsLookedForAndSaidOnce) {
   Letters letters(14);
   letters.want("\xef\xb7\x90");  // no character
   EXPECT_EQ(settle(letters), 0);
-  EXPECT_TRUE(letters.take_lacking());
+  EXPECT_FALSE(letters.take_lacking().empty());
   letters.want("\xef\xb7\x90");
   EXPECT_FALSE(letters.update());
   EXPECT_FALSE(letters.looking());
-  EXPECT_FALSE(letters.take_lacking());
+  EXPECT_TRUE(letters.take_lacking().empty());
+}
+
+TEST_F(Written, NoFontIsLookedForAnEmoji) {
+  Letters letters(14);
+  letters.want("\U0001F98A fox");
+  EXPECT_FALSE(letters.update());
+  EXPECT_FALSE(letters.looking());
+}
+
+TEST(LackingLetters, ArePromisedNoFontThatHasThemNot) {
+  const auto names = [](char32_t one, const char* package) {
+    return words_on_lacking({one}).find(package) != std::string::npos;
+  };
+  EXPECT_TRUE(names(U'\u5de6', "fonts-noto-cjk"));
+  EXPECT_FALSE(names(U'\u5de6', "fonts-noto-core"));
+  EXPECT_TRUE(names(U'\u0915', "fonts-noto-core"));  // of India
+  for (const char32_t sign : {U'\u2b50', U'\u231a', U'\ufdd0'}) {
+    EXPECT_FALSE(names(sign, "fonts-noto"));
+  }
 }
 
 TEST_F(Written, BytesThatAreNoTextAreNoHarm) {

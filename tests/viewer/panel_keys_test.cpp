@@ -7,6 +7,8 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <functional>
 #include <set>
 #include <string>
 #include <utility>
@@ -66,6 +68,40 @@ class Typed : public testing::Test {
     io.KeyShift = false;
     settle();
   }
+  void correct_something() {
+    Pick edge;
+    edge.kind = Pick::Kind::edge;
+    edge.index = 0;
+    bench.select(edge, false);
+    bench.split();
+    ASSERT_TRUE(bench.history().unsaved());
+    settle();
+  }
+  void click(const ImVec2& place) {
+    ImGuiIO& io = ImGui::GetIO();
+    io.MousePos = place;
+    settle();
+    for (const bool down : {true, false}) {
+      io.MouseDown[0] = down;
+      frame();
+    }
+    settle();
+  }
+  /// Of that to which keys have come.
+  [[nodiscard]] static ImVec2 middle_of_control_in(const ImGuiWindow& window) {
+    const ImVec2 middle = window.NavRectRel[0].GetCenter();
+    const ImVec2 start = window.DC.CursorStartPos;
+    return {start.x + middle.x, start.y + middle.y};
+  }
+  /// The middle of a control, to which Tab has come.
+  [[nodiscard]] ImVec2 place_of(const char* panel_name, const char* label) {
+    const ImGuiWindow* const window = ImGui::FindWindowByName(panel_name);
+    const ImGuiID wanted = const_cast<ImGuiWindow*>(window)->GetID(label);
+    for (int tabs = 0; tabs < 80 && at() != wanted; ++tabs) type(GLFW_KEY_TAB);
+    EXPECT_EQ(at(), wanted) << label;
+    return middle_of_control_in(*window);
+  }
+  static void point_at_the_model() { ImGui::GetIO().MousePos = {width / 2, height * 0.42F}; }
   [[nodiscard]] std::size_t moment() const { return bench.scene->moment; }
   [[nodiscard]] static ImGuiID at() { return ImGui::GetCurrentContext()->NavId; }
   [[nodiscard]] static std::string panel() {
@@ -217,6 +253,172 @@ TEST_F(Typed, AJointIsChosenInTheListBySpaceAndByEnter) {
   EXPECT_EQ(bench.selected_joint(), -1);
 }
 
+// It ended the program, with all corrections.
+TEST_F(Typed, ADialogueMayOpenByAKeyWhileThePointerRestsOnTheModel) {
+  correct_something();
+  point_at_the_model();
+  bench.wants_to_abandon.emplace();  // as Ctrl-Q does
+  settle();
+  type(GLFW_KEY_S);
+  EXPECT_TRUE(panels.browser.shown());
+  EXPECT_FALSE(bench.wants_to_abandon);
+}
+
+TEST_F(Typed, ADialogueMayOpenInTheFrameInWhichThePointerComesToTheModel) {
+  correct_something();
+  for (const auto& ask : {std::function<void()>([&] { ask_to_open(panels); }),
+                          {[&] { bench.wants_to_abandon.emplace(); }},
+                          {[&] { bench.wants_to_replace = "y.json"; }}}) {
+    ImGui::GetIO().MousePos = {-1, -1};
+    settle();
+    point_at_the_model();
+    ask();
+    settle();
+    EXPECT_TRUE(is_list_open());
+    type(GLFW_KEY_ESCAPE);
+    settle();
+    EXPECT_FALSE(is_list_open());
+  }
+}
+
+TEST_F(Typed, SaveInTheQuestionGoesOnOnceItIsSaved) {
+  const OwnFolder folder;
+  for (const std::vector<std::filesystem::path>& next :
+       {std::vector<std::filesystem::path>{}, {mesh_called("torus.off")}}) {
+    correct_something();
+    panels.browser.go_to(folder.path());
+    const auto answer = [&](int key) {
+      bench.wants_to_abandon = next;
+      settle();
+      type(GLFW_KEY_S);
+      type(key);
+      EXPECT_FALSE(panels.browser.shown());
+    };
+    answer(GLFW_KEY_ESCAPE);  // no file is named
+    bench.save(folder.path() / "picture.png", true);
+    EXPECT_FALSE(bench.wants_to_leave || bench.opening());
+    const auto saved = folder.path() / "y.json";
+    answer(GLFW_KEY_ENTER);
+    EXPECT_TRUE(std::filesystem::remove(saved));
+    EXPECT_EQ(std::exchange(bench.wants_to_leave, false), next.empty());
+    EXPECT_EQ(bench.opening(), !next.empty());
+  }
+}
+
+// It stayed, unseen, and had all keys.
+TEST_F(Typed, AQuestionEndsTheDialogueThatItComesOver) {
+  correct_something();
+  ask_to_open(panels);
+  settle();
+  bench.wants_to_abandon.emplace();  // as the window's close button does
+  settle();
+  EXPECT_FALSE(panels.browser.shown());
+  type(GLFW_KEY_ESCAPE);
+  const std::size_t before = moment();
+  type(GLFW_KEY_LEFT);
+  EXPECT_EQ(moment(), before - 1);
+}
+
+// Ctrl-Q ended the program without a word, and there was no file.
+TEST_F(Typed, LeavingAsksWhileARigIsMadeForASave) {
+  const OwnFolder folder;
+  for (const auto& [key, leaves] : {std::pair{GLFW_KEY_W, true}, {GLFW_KEY_ESCAPE, false}}) {
+    bench.undo();
+    correct_something();  // so that there is no rig
+    const auto file = folder.path() / (leaves ? "left.glb" : "stayed.glb");
+    bench.save(file);
+    ASSERT_TRUE(bench.would_lose());
+    bench.wants_to_abandon.emplace();
+    settle();
+    EXPECT_TRUE(is_list_open());
+    type(key);
+    EXPECT_FALSE(is_list_open());
+    ASSERT_TRUE(wait_for(bench, [&] { return !bench.busy(); }));
+    EXPECT_TRUE(std::filesystem::exists(file));
+    EXPECT_EQ(std::exchange(bench.wants_to_leave, false), leaves);
+  }
+}
+
+TEST_F(Typed, AQuestionIsAnsweredByArrowsAndEnter) {
+  correct_something();
+  bench.wants_to_abandon.emplace();
+  settle();
+  const auto is_at = [](const char* label) {
+    return at() == ImGui::FindWindowByName("Discard corrections?")->GetID(label);
+  };
+  EXPECT_TRUE(are_for_panels()) << "a frame stands round it";
+  EXPECT_TRUE(is_at("Stay"));
+  type(GLFW_KEY_LEFT);
+  EXPECT_TRUE(is_at("Discard"));
+  type(GLFW_KEY_RIGHT);
+  type(GLFW_KEY_ENTER);
+  EXPECT_FALSE(bench.wants_to_abandon);
+  EXPECT_FALSE(panels.may_leave);
+  EXPECT_FALSE(are_for_panels());
+  bench.wants_to_abandon.emplace();
+  settle();
+  type(GLFW_KEY_LEFT);
+  type(GLFW_KEY_ENTER);
+  EXPECT_TRUE(panels.may_leave);
+}
+
+TEST_F(Typed, AKeyThatWentDownBeforeAQuestionIsNoAnswer) {
+  correct_something();
+  for (const int key : {GLFW_KEY_ENTER, GLFW_KEY_SPACE}) {
+    ImGui::GetIO().KeysDown[key] = true;
+    frame();
+    bench.wants_to_abandon.emplace();
+    settle();
+    EXPECT_TRUE(bench.wants_to_abandon);
+    ImGui::GetIO().KeysDown[key] = false;
+    settle();
+    EXPECT_TRUE(bench.wants_to_abandon);
+    type(key);
+    EXPECT_FALSE(bench.wants_to_abandon);
+  }
+}
+
+TEST_F(Typed, AQuestionIsAnsweredByTheMouse) {
+  correct_something();
+  bench.wants_to_abandon.emplace();
+  settle();
+  click(middle_of_control_in(*ImGui::FindWindowByName("Discard corrections?")));
+  EXPECT_FALSE(bench.wants_to_abandon);
+  EXPECT_FALSE(is_list_open());
+}
+
+TEST_F(Typed, AListThatTheMouseOpenedIsUsedByArrowsAndEnter) {
+  for (const bool by_tab : {false, true}) {
+    const ImVec2 list = place_of("look", "surface");
+    const SurfaceStyle before = bench.scene->look.surface;
+    const std::size_t shown = moment();
+    if (!by_tab) type(GLFW_KEY_ESCAPE);
+    EXPECT_EQ(are_for_panels(), by_tab);
+    click(list);
+    ASSERT_TRUE(is_list_open());
+    type(GLFW_KEY_DOWN);
+    type(GLFW_KEY_ENTER);
+    EXPECT_FALSE(is_list_open());
+    EXPECT_NE(bench.scene->look.surface, before);
+    type(GLFW_KEY_HOME);
+    EXPECT_EQ(moment(), 0) << "keys are for the picture again";
+    bench.go_to(shown);
+    settle();
+  }
+}
+
+TEST_F(Typed, AClickInThePictureClosesAListAndCounts) {
+  const ImVec2 list = place_of("look", "surface");
+  type(GLFW_KEY_ESCAPE);
+  click(list);
+  ASSERT_TRUE(is_list_open());
+  bench.clear_selection();
+  point_at_the_model();
+  click(ImGui::GetIO().MousePos);
+  EXPECT_FALSE(is_list_open());
+  EXPECT_TRUE(bench.selected_edge() >= 0 || !bench.selected_nodes().empty());
+}
+
 TEST_F(Typed, ArrowsInTheDialogueNameFilesOneAfterTheOther) {
   const OwnFolder folder;
   for (const char* name : {"a.off", "b.off", "c.off"}) (void)folder.write(name, "OFF\n");
@@ -232,6 +434,29 @@ TEST_F(Typed, ArrowsInTheDialogueNameFilesOneAfterTheOther) {
   type(GLFW_KEY_ENTER);
   EXPECT_FALSE(panels.browser.shown());
   EXPECT_EQ(bench.messages().back().text, "opening b.off");
+}
+
+// The name had a NUL in it, so that nothing was saved.
+TEST_F(Typed, ANameWithAnEmojiIsSavedAsItIsAndEdited) {
+  const OwnFolder folder;
+  const std::string fox = "\U0001F98A";
+  const auto inner = folder.path() / fox;
+  std::filesystem::create_directory(inner);
+  panels.browser.go_to(inner);
+  panels.browser.ask(FileBrowser::Purpose::save, "Save the skeleton", fox + ".json");
+  settle();
+  type(GLFW_KEY_ENTER);
+  EXPECT_FALSE(panels.browser.shown()) << panels.browser.name();
+  EXPECT_TRUE(std::filesystem::exists(inner / (fox + ".json"))) << bench.messages().back().text;
+  panels.browser.ask(FileBrowser::Purpose::save, "Save the skeleton", fox + ".json");
+  settle();
+  type(GLFW_KEY_END);
+  for (int letters = 0; letters < 4; ++letters) type(GLFW_KEY_BACKSPACE);
+  ImGui::GetIO().AddInputCharactersUTF8((fox + "ply").c_str());  // no field can hold the first
+  settle();
+  EXPECT_EQ(panels.browser.name(), fox + ".ply");
+  type(GLFW_KEY_ENTER);
+  EXPECT_TRUE(std::filesystem::exists(inner / (fox + ".ply"))) << bench.messages().back().text;
 }
 
 TEST_F(Typed, AVrmFileIsNotChosenBeforeItsTextsAreThere) {
@@ -274,11 +499,13 @@ TEST_F(Typed, TheTextsOfAVrmFileAreTypedInOneGo) {
   type(GLFW_KEY_TAB);
   write("no address");
   EXPECT_TRUE(panels.browser.shown());
+  EXPECT_TRUE(panels.browser.lacks_fields());
   EXPECT_EQ(bench.vrm.name, "a figure");
   EXPECT_EQ(bench.vrm.author, "an author");
   EXPECT_EQ(bench.vrm.licence_url, "no address");
   for (int letters = 0; letters < 10; ++letters) type(GLFW_KEY_BACKSPACE);
   write("https://vrm.dev/licenses/1.0/");
+  EXPECT_FALSE(panels.browser.lacks_fields()) << "it is no longer said";
   type(GLFW_KEY_ENTER);
   EXPECT_FALSE(panels.browser.shown()) << bench.vrm.licence_url;
 }

@@ -192,6 +192,20 @@ TEST_F(OnScreen, NothingInAPanelIsWiderThanThePanel) {
   }
 }
 
+// The second column was cut.
+TEST_F(OnScreen, TheHelpIsNoWiderThanTheWindow) {
+  panels.help = true;
+  for (const ImVec2& size : {ImVec2{1200, 800}, {640, 480}, {400, 300}, {300, 200}}) {
+    ImGui::GetIO().DisplaySize = size;
+    for (int settles = 0; settles < 4; ++settles) {
+      frame([&] { draw_panels(bench, panels, lay_out(size.x, size.y, 1, true)); });
+    }
+    const ImGuiWindow* const help = ImGui::FindWindowByName("Help");
+    EXPECT_LE(help->Size.x, size.x);
+    EXPECT_LE(help->ContentSize.x, help->WorkRect.GetWidth() + 1) << size.x;
+  }
+}
+
 // It ended the program, with all corrections.
 TEST_F(OnScreen, AWorkingDirectoryThatIsGoneIsNoEnd) {
   const std::filesystem::path before = std::filesystem::current_path();
@@ -203,6 +217,30 @@ TEST_F(OnScreen, AWorkingDirectoryThatIsGoneIsNoEnd) {
   EXPECT_NO_THROW(browser.ask(FileBrowser::Purpose::save, "Save the skeleton", "y.json"));
   EXPECT_NO_THROW(frame([&] { (void)browser.draw(); }));
   std::filesystem::current_path(before);
+}
+
+// What follows "##" was left out.
+TEST_F(OnScreen, TheFileWindowListsWholeNames) {
+  const auto drawn = [&](const char* name) {
+    const OwnFolder listed;
+    (void)listed.write(name, "OFF\n");
+    FileBrowser browser;
+    browser.go_to(listed.path());
+    browser.ask(FileBrowser::Purpose::open, "Open", "");
+    for (int settles = 0; settles < 3; ++settles) frame([&] { (void)browser.draw(); });
+    const auto& windows = ImGui::GetCurrentContext()->Windows;
+    const auto* const files = std::find_if(
+        windows.begin(), windows.end(),
+        [](const ImGuiWindow* one) { return std::string(one->Name).starts_with("Open/files"); });
+    const int corners = files == windows.end() ? 0 : (*files)->DrawList->VtxBuffer.size();
+    browser.close();
+    for (int settles = 0; settles < 3; ++settles) frame([&] { (void)browser.draw(); });
+    return corners;
+  };
+  EXPECT_GT(drawn("a.off"), 0);
+  EXPECT_GT(drawn("aaaab.off"), drawn("a.off"));
+  EXPECT_EQ(drawn("a##ab.off"), drawn("aaaab.off"));
+  EXPECT_EQ(drawn("##aab.off"), drawn("aaaab.off"));
 }
 
 TEST_F(OnScreen, TheFileWindowIsAsLargeAsItsLetters) {

@@ -237,6 +237,34 @@ TEST_F(Rigging, IsSavedAndMadeFirstIfNeedBe) {
   EXPECT_NE(last_said().find("for a rig, glb, gltf"), std::string::npos) << last_said();
 }
 
+TEST_F(Rigging, IsSavedBeforeAnotherFileIsOpened) {
+  open_y();
+  const auto file = folder.path() / "y.glb";
+  bench.save(file);
+  bench.open({mesh("torus.off")});
+  EXPECT_TRUE(bench.wants_to_abandon);
+  EXPECT_FALSE(bench.opening());
+  ASSERT_TRUE(wait([&] { return bench.opening(); })) << "once the rig is saved";
+  EXPECT_TRUE(std::filesystem::exists(file));
+  EXPECT_FALSE(bench.wants_to_abandon);
+}
+
+TEST_F(Rigging, SaysSoWhereItsSurfaceIsReadAnewBeforeItIsSaved) {
+  open_y();
+  const auto file = folder.path() / "y.glb";
+  const Scene* const before = bench.scene.get();
+  bench.reload();
+  ASSERT_TRUE(wait([&] {
+    if (bench.scene.get() == before && !bench.making_rig() && !bench.has_rig()) bench.save(file);
+    return bench.scene.get() != before || bench.has_rig();
+  }));
+  const auto& all = bench.messages();
+  const bool told = std::any_of(all.begin(), all.end(), [](const Message& one) {
+    return one.bad && one.text.find("was not saved") != std::string::npos;
+  });
+  EXPECT_NE(told, std::filesystem::exists(file));
+}
+
 TEST_F(Rigging, AVrmFileHasItsNameAuthorAndLicence) {
   open_y();
   const auto file = folder.path() / "human.vrm";
@@ -335,9 +363,19 @@ TEST_F(Rigging, SaysHowSheetsGetJoints) {
     return (bench.scene->rig()->joints.col(0).array() > 7.1).count();
   };
   EXPECT_EQ(joints_in_the_wing(0), 0);
-  EXPECT_NE(last_said().find("--least-sheet 0.1"), std::string::npos) << last_said();
+  EXPECT_NE(last_said().find("least sheet of 0.1"), std::string::npos) << last_said();
   EXPECT_GE(joints_in_the_wing(0.1), 1);
-  EXPECT_EQ(last_said().find("--least-sheet"), std::string::npos) << last_said();
+  EXPECT_EQ(last_said().find("least sheet"), std::string::npos) << last_said();
+}
+
+TEST_F(Rigging, OfSheetsFollowsTheLeastSheetOfTheNextRun) {
+  bench.open({folder.write("wing.obj", y_with_a_wing())});
+  ASSERT_TRUE(wait([&] { return bench.result() != nullptr && !bench.busy(); }));
+  bench.pipeline.repair.least_sheet = 0.1;  // as the slider does
+  bench.start(false);
+  ASSERT_TRUE(wait([&] { return !bench.busy(); }));
+  make_rig();
+  EXPECT_GE((bench.scene->rig()->joints.col(0).array() > 7.1).count(), 1);
 }
 
 TEST_F(Rigging, NeedsASkeletonAndSaysSo) {

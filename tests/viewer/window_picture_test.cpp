@@ -53,6 +53,11 @@ TEST_F(DrawnAgain, WhereAJointIsTurnedAndTurnedBack) {
   EXPECT_TRUE(after([&] { scene->turn_back(); }));
 }
 
+// In the light theme the window was black.
+TEST_F(DrawnAgain, ButNotWhereFilesAreToHaveNoBackground) {
+  EXPECT_FALSE(after([&] { scene->look.transparent_background = true; }));
+}
+
 TEST_F(DrawnAgain, WhereTheRigIsAnotherOne) {
   EXPECT_TRUE(after([&] {
     Rig other = *scene->rig();

@@ -286,6 +286,20 @@ class Correcting(WindowTest):
         window.key("d")
         self.assertEqual(window.exit_code(), DONE)
 
+    def test_saving_when_asked_leaves_once_it_is_saved(self):
+        window, tips, middle = self.cross()
+        window.click(*tips[0])
+        window.changes("Delete", least=0.0005)
+        window.move(*middle)  # where something is described
+        window.changes("ctrl+q")
+        window.changes("s", least=0.05)
+        window.key("ctrl+a")
+        file = self.folder / "kept.json"
+        display.xdotool("type", "--delay", 5, str(file))
+        window.key("Return")
+        self.assertEqual(window.exit_code(), DONE)
+        self.assertEqual(len(json.loads(file.read_bytes())["edges"]), 3)
+
     def test_rig_comes_by_a_key_and_is_saved(self):
         window = self.opened()
         window.key("g")
@@ -361,8 +375,7 @@ class Correcting(WindowTest):
         window.changes("Delete", least=0.0005)
         before = (self.folder / "cross.json").read_bytes()
         window.type_into_dialogue("ctrl+s", str(self.folder / "cross.json"))
-        window.key("Return")  # no answer to the question
-        window.changes("Escape", least=0.05)
+        window.changes("Return", least=0.05)  # the answer that is marked: keep it
         self.assertEqual((self.folder / "cross.json").read_bytes(), before)
         self.assertEqual(self.counts(window, "other.json")[1], 3)
         self.leave(window)

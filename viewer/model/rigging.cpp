@@ -75,9 +75,8 @@ std::string words_on_sheets(const RepairedSurface& repaired, const RepairOptions
   const auto left_out = repaired.repairs.sheets_dropped;
   if (left_out == 0 || options.least_sheet > 0) return {};
   return fmt::format(
-      "{} open or flat part{} no joints; open the file with --least-sheet {}, which gives large "
-      "ones "
-      "their own",
+      "{} open or flat part{} no joints; large ones have their own with a least sheet of {} "
+      "(on the left, under More; --least-sheet)",
       left_out, left_out == 1 ? " has" : "s have", repair_for_rigs().least_sheet);
 }
 

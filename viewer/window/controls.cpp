@@ -167,7 +167,8 @@ void Controls::mouse(Workbench& bench, Panels& panels, const Area& picture) {
   const ImGuiIO& io = ImGui::GetIO();
   scale_ = panels.scale;
   const glm::vec2 at = pointer_in(picture);
-  const bool over = !io.WantCaptureMouse && holds(picture, at);
+  // A click that closes a list counts as well.
+  const bool over = !io.WantCaptureMouseUnlessPopupClose && holds(picture, at);
   bool began = false;
   if (drag_ == Drag::none) {
     panels.hovered = over ? pick(*bench.scene, at, static_cast<int>(picture.width),
@@ -247,7 +248,11 @@ void Controls::look_keys(Workbench& bench, Panels& panels, const Area& picture) 
   if (pressed(GLFW_KEY_K)) next(look.skeleton, skeleton_styles);
   if (pressed(GLFW_KEY_L)) next(look.theme, themes);
   if (pressed(GLFW_KEY_E)) look.edges = !look.edges;
-  if (pressed(GLFW_KEY_B)) look.transparent_background = !look.transparent_background;
+  if (pressed(GLFW_KEY_B)) {
+    look.transparent_background = !look.transparent_background;
+    bench.say(look.transparent_background ? "pictures (F12) will have no background"
+                                          : "pictures (F12) will have their background");
+  }
   if (pressed(GLFW_KEY_H) || pressed(GLFW_KEY_F1)) panels.help = !panels.help;
   if (pressed(GLFW_KEY_P)) {
     panels.shown = !panels.shown;
@@ -283,13 +288,19 @@ void Controls::time_keys(Workbench& bench) const {
 }
 
 /// The panels appear where they were hidden.
-void Controls::heed_tab(Panels& panels, bool dialogue) {
-  if (panel_keys_.begin(dialogue) && !dialogue) panels.shown = true;
+void Controls::heed_tab(const Workbench& bench, Panels& panels) {
+  using Over = PanelKeys::Over;
+  const bool question = bench.wants_to_replace || bench.wants_to_abandon;
+  const bool dialogue = question || panels.browser.shown();
+  const Over over = question         ? Over::question
+                    : dialogue       ? Over::dialogue
+                    : is_list_open() ? Over::list
+                                     : Over::nothing;
+  if (panel_keys_.begin(over) && !dialogue) panels.shown = true;
 }
 
 void Controls::keys(Workbench& bench, Panels& panels, const Area& picture) {
-  const bool dialogue = panels.browser.shown() || bench.wants_to_replace || bench.wants_to_abandon;
-  heed_tab(panels, dialogue);
+  heed_tab(bench, panels);
   if (pressed(GLFW_KEY_ESCAPE)) escape(bench, panels);
   // WantTextInput outlives the field by a frame.
   const bool typing = ImGui::GetIO().WantTextInput && ImGui::IsAnyItemActive();

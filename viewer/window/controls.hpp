@@ -47,7 +47,7 @@ class Controls {
   void edit_keys(Workbench& bench) const;
   void escape(Workbench& bench, Panels& panels);
   void time_keys(Workbench& bench) const;
-  void heed_tab(Panels& panels, bool dialogue);
+  void heed_tab(const Workbench& bench, Panels& panels);
 
   PanelKeys panel_keys_;
   Drag drag_ = Drag::none;

@@ -24,6 +24,17 @@ fs::path first_folder() {
   return error ? fs::path("/") : here;
 }
 
+/// With all of its label: ImGui leaves out what follows "##", and takes equal labels for one.
+bool whole_selectable(const std::string& label, bool selected) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImGui::PushID(label.c_str());
+  const bool pressed =
+      ImGui::Selectable("##entry", selected, ImGuiSelectableFlags_AllowDoubleClick);
+  ImGui::PopID();
+  ImGui::GetWindowDrawList()->AddText(at, ImGui::GetColorU32(ImGuiCol_Text), label.c_str());
+  return pressed;
+}
+
 }  // namespace
 
 void FileBrowser::go_to(const fs::path& folder) {
@@ -65,6 +76,7 @@ void FileBrowser::ask(Purpose purpose, const std::string& title, const std::stri
   hint_ = hint;
   name_ = suggested_name;
   shown_ = opens_now_ = true;
+  lacks_fields_ = false;
   frames_to_open_ = 5;  // ImGui takes two
   go_to(folder_.empty() ? first_folder() : folder_);
 }
@@ -95,8 +107,7 @@ void FileBrowser::draw_entries(fs::path& next, std::optional<fs::path>& chosen) 
     const std::string shown = in_reading_order(entry.name);
     const std::string label = entry.folder ? shown + "/" : shown;
     const bool is_named = entry.name == name_;
-    const bool pressed =
-        ImGui::Selectable(label.c_str(), is_named, ImGuiSelectableFlags_AllowDoubleClick);
+    const bool pressed = whole_selectable(label, is_named);
     if (is_named && scrolls_) ImGui::SetScrollHereY();
     if (!pressed) continue;
     if (entry.folder) {
@@ -113,23 +124,42 @@ void FileBrowser::draw_entries(fs::path& next, std::optional<fs::path>& chosen) 
 }
 
 bool FileBrowser::draw_name() {
-  const auto choose_beside = [](ImGuiInputTextCallbackData* data) {
+  const auto heed = [](ImGuiInputTextCallbackData* data) {
+    constexpr ImWchar no_character = 0xFFFD;  // typed, and more than a field can hold
+    if (data->EventFlag == ImGuiInputTextFlags_CallbackCharFilter) {
+      return data->EventChar == no_character ? 1 : 0;
+    }
     auto& self = *static_cast<FileBrowser*>(data->UserData);
     const int lines = data->EventKey == ImGuiKey_UpArrow ? -1 : 1;
-    const std::string name = self.name_beside({data->Buf, data->Buf + data->BufTextLen}, lines);
+    const std::string now =
+        self.field_text_.from_field({data->Buf, static_cast<std::size_t>(data->BufTextLen)});
+    const std::string beside = self.field_text_.in_field(self.name_beside(now, lines));
     data->DeleteChars(0, data->BufTextLen);
-    data->InsertChars(0, name.c_str());
+    data->InsertChars(0, beside.c_str());
     self.scrolls_ = true;
     return 0;
   };
-  constexpr ImGuiInputTextFlags flags =
-      ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackHistory;
-  return ImGui::InputText("##name", &name_, flags, choose_beside, this);
+  constexpr ImGuiInputTextFlags flags = ImGuiInputTextFlags_EnterReturnsTrue |
+                                        ImGuiInputTextFlags_CallbackHistory |
+                                        ImGuiInputTextFlags_CallbackCharFilter;
+  std::string shown = field_text_.in_field(name_);
+  const bool entered = ImGui::InputText("##name", &shown, flags, heed, this);
+  name_ = field_text_.from_field(shown);
+  return entered;
 }
 
 bool FileBrowser::asks_for(const FieldsForName& fields) const {
   return purpose_ == Purpose::save && !fields.extension.empty() &&
          lower_extension(name_) == fields.extension;
+}
+
+void FileBrowser::draw_error(const FieldsForName& fields) {
+  lacks_fields_ = lacks_fields_ && asks_for(fields) && !fields.missing().empty();
+  const std::string text = lacks_fields_ ? fields.missing() : error_;
+  if (text.empty()) return;
+  ImGui::PushStyleColor(ImGuiCol_Text, {0.9F, 0.2F, 0.2F, 1});
+  ImGui::TextWrapped("%s", text.c_str());
+  ImGui::PopStyleColor();
 }
 
 float FileBrowser::height_of_hint() const {
@@ -170,9 +200,8 @@ void FileBrowser::refuse_unready(std::optional<fs::path>& chosen, const FieldsFo
     chosen.reset();
     return;
   }
-  if (!asks_for(fields)) return;
-  error_ = fields.missing();
-  if (error_.empty()) return;
+  if (!asks_for(fields) || fields.missing().empty()) return;
+  lacks_fields_ = true;
   chosen.reset();
   focuses_field_ = true;
 }
@@ -188,13 +217,12 @@ std::optional<fs::path> FileBrowser::draw(const FieldsForName& fields) {
       ImGuiCond_Appearing);
   ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Appearing, {0.5F, 0.5F});
   std::optional<fs::path> chosen;
-  if (!ImGui::BeginPopupModal(title, &shown_)) return chosen;
-  ImGui::TextWrapped("%s", in_reading_order(folder_.string()).c_str());
-  if (!error_.empty()) {
-    ImGui::PushStyleColor(ImGuiCol_Text, {0.9F, 0.2F, 0.2F, 1});
-    ImGui::TextWrapped("%s", error_.c_str());
-    ImGui::PopStyleColor();
+  if (!ImGui::BeginPopupModal(title, &shown_)) {
+    shown_ = shown_ && ImGui::IsPopupOpen(title);  // a question may have come in its place
+    return chosen;
   }
+  ImGui::TextWrapped("%s", in_reading_order(folder_.string()).c_str());
+  draw_error(fields);
   const int lines = 1 + (asks_for(fields) ? fields.lines : 0);
   const float below =
       static_cast<float>(lines) * ImGui::GetFrameHeightWithSpacing() + height_of_hint();

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "viewer/window/field_text.hpp"
+
 namespace curveskel::viewer {
 
 /// Controls beneath the list of files, for names with this extension.
@@ -29,10 +31,12 @@ class FileBrowser {
   /// Within an ImGui frame; the chosen file, once. One that is to be saved and lacks something
   /// is not chosen: the dialogue says why, and stays.
   [[nodiscard]] std::optional<std::filesystem::path> draw(const FieldsForName& fields = {});
-  /// As it stands in the field.
+  /// Of the file that the field names.
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] Purpose purpose() const { return purpose_; }
   [[nodiscard]] bool shown() const { return shown_; }
+  /// True while it says what such a file lacks.
+  [[nodiscard]] bool lacks_fields() const { return lacks_fields_; }
   /// Asked for, and not yet ready to be typed into.
   [[nodiscard]] bool opening() const { return shown_ && frames_to_open_ > 0; }
   void close() { shown_ = false; }
@@ -47,6 +51,7 @@ class FileBrowser {
   };
   void list();
   void draw_entries(std::filesystem::path& next, std::optional<std::filesystem::path>& chosen);
+  void draw_error(const FieldsForName& fields);
   [[nodiscard]] float height_of_hint() const;
   void draw_hint() const;
   /// The field for the name and the buttons; true if a file was chosen by them.
@@ -72,7 +77,9 @@ class FileBrowser {
   std::filesystem::path folder_;
   std::vector<Entry> entries_;
   std::string name_;
+  FieldText field_text_;
   std::string error_;
+  bool lacks_fields_ = false;  // so that the reader is told what they lack
 };
 
 }  // namespace curveskel::viewer

@@ -114,8 +114,7 @@ void parameters(Workbench& bench) {
                               "Below the default branches are hidden and shown at once, above it "
                               "some are added; nothing moves.");
   if (options.embed.detail != detail) bench.show_level();
-  const double wanted = std::max(options.embed.detail, standard.embed.detail);
-  changed |= finished && wanted != bench.detail_made();
+  changed |= finished && bench.wants_finer_run();
   if (ImGui::TreeNode("More")) {
     ContractionOptions& flow = options.contraction;
     const ContractionOptions& usual = standard.contraction;
@@ -132,12 +131,18 @@ void parameters(Workbench& bench) {
                      "Junctions nearer to each other than so many inscribed radii become one.");
     changed |= slide("straight", options.embed.straight, standard.embed.straight, 0, 2,
                      "Within so many inscribed radii of a junction, branches run straight.");
+    changed |=
+        slide("least sheet", bench.pipeline.repair.least_sheet, RepairOptions().least_sheet, 0, 1,
+              "Open or flat parts of at least this extent, in diagonals of the box round "
+              "the model, become thin bodies, with a skeleton and joints. 0 = all are left "
+              "out; 0.1 for the wings and ears of a character.");
     ImGui::TreePop();
   }
   if (ImGui::Button("Defaults")) {
     const auto cache = options.contraction.program_cache;
     options = standard;
     options.fair.iterations = 0;
+    bench.pipeline.repair.least_sheet = RepairOptions().least_sheet;
     options.contraction.program_cache = options.fair.program_cache = cache;
     changed = true;
   }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <utility>
 
 #include "viewer/software/priority.hpp"
@@ -14,8 +15,45 @@ namespace {
 
 constexpr char32_t first_letter = 0x20;
 constexpr char32_t last_latin_letter = 0xFF;
+constexpr char32_t first_not_shown = 0xFFFD;
+
+bool is_within(char32_t one, char32_t first, char32_t last) { return one >= first && one <= last; }
+
+/// Joiners, marks of direction, and those that choose how an emoji looks.
+bool is_mark_without_shape(char32_t one) {
+  return is_within(one, 0x200B, 0x200F) || is_within(one, 0x202A, 0x202E) ||
+         is_within(one, 0x2060, 0x206F) || is_within(one, 0xFE00, 0xFE0F) || one == 0xFEFF;
+}
+
+bool is_chinese_japanese_or_korean(char32_t one) {
+  return is_within(one, 0x1100, 0x11FF) || is_within(one, 0x2E80, 0x9FFF) ||
+         is_within(one, 0xA960, 0xA97F) || is_within(one, 0xAC00, 0xD7FF) ||
+         is_within(one, 0xF900, 0xFAFF) || is_within(one, 0xFE30, 0xFE4F) ||
+         is_within(one, 0xFF00, 0xFFEF);
+}
+
+/// Arrows, signs and pictures, and what is private or nothing: no package is sure to have them.
+bool is_of_no_script(char32_t one) {
+  return is_within(one, 0x2000, 0x2BFF) || is_within(one, 0xD800, 0xF8FF) ||
+         is_within(one, 0xFDD0, 0xFDEF);
+}
 
 }  // namespace
+
+std::string words_on_lacking(const std::vector<char32_t>& characters) {
+  bool of_cjk = false;
+  bool of_others = false;
+  for (const char32_t one : characters) {
+    const bool is_cjk = is_chinese_japanese_or_korean(one);
+    of_cjk = of_cjk || is_cjk;
+    of_others = of_others || (!is_cjk && !is_of_no_script(one));
+  }
+  std::string text =
+      "a name has characters that no font of this system has, so that they are shown as ?";
+  if (of_cjk) text += "; Debian's fonts-noto-cjk has those of Chinese, Japanese and Korean";
+  if (of_others) text += "; Debian's fonts-noto-core has those of most scripts";
+  return text;
+}
 
 Letters::Letters(float line_pixels) : line_pixels_(line_pixels), own_(usual_face()) {
   for (char32_t one = first_letter; one <= last_latin_letter; ++one) wanted_.set(one);
@@ -32,7 +70,8 @@ void Letters::want(std::string_view text) {
       continue;
     }
     at += std::max(ImTextCharFromUtf8(&character, at, end), 1);
-    if (character < first_letter || character >= count || wanted_[character]) continue;
+    // ImGui has U+FFFD for what it cannot show, such as emoji; no font is looked for it.
+    if (character < first_letter || character >= first_not_shown || wanted_[character]) continue;
     wanted_.set(character);
     new_.push_back(character);
   }
@@ -58,8 +97,8 @@ bool Letters::take_found() {
   if (!ready) return false;
   auto found = found_.get();
   others_.insert(others_.end(), found.begin(), found.end());
-  const auto in_none = [&](char32_t one) { return !has(one); };
-  lacking_ = lacking_ || std::any_of(looked_for_.begin(), looked_for_.end(), in_none);
+  std::copy_if(looked_for_.begin(), looked_for_.end(), std::back_inserter(lacking_),
+               [&](char32_t one) { return !has(one) && !is_mark_without_shape(one); });
   return !found.empty();
 }
 
@@ -76,7 +115,10 @@ bool Letters::update() {
   return anew;
 }
 
-bool Letters::take_lacking() { return lacking_ && !std::exchange(told_, true); }
+std::string Letters::take_lacking() {
+  if (lacking_.empty() || std::exchange(told_, true)) return {};
+  return words_on_lacking(lacking_);
+}
 
 void Letters::build() {
   ranges_.clear();

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <future>
 #include <memory>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -26,8 +27,9 @@ class Letters {
   [[nodiscard]] bool update();
   /// Fonts of the system are being looked for.
   [[nodiscard]] bool looking() const { return found_.valid(); }
-  /// True, once, if something that was wanted is in no font of the system.
-  [[nodiscard]] bool take_lacking();
+  /// A word for the person, once, if something that was wanted is in no font of the system; else
+  /// empty.
+  [[nodiscard]] std::string take_lacking();
 
  private:
   static constexpr std::size_t count = 0x10000;  // of ImGui's characters
@@ -43,9 +45,12 @@ class Letters {
   std::vector<char32_t> new_;  // wanted since the last update
   std::vector<char32_t> looked_for_;
   std::future<std::vector<std::shared_ptr<const FontFace>>> found_;
-  bool lacking_ = false;
+  std::vector<char32_t> lacking_;
   bool told_ = false;
   std::vector<unsigned short> ranges_;  // ImGui keeps their address
 };
+
+/// About characters that no font has, with Debian's packages that have fonts for their scripts.
+[[nodiscard]] std::string words_on_lacking(const std::vector<char32_t>& characters);
 
 }  // namespace curveskel::viewer

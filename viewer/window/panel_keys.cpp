@@ -76,7 +76,22 @@ void PanelKeys::go(int direction) {
   ask(direction);
 }
 
-bool PanelKeys::begin(bool dialogue) {
+/// Keys come with a question or a list, but not one that went down before it, and go with it.
+void PanelKeys::heed(Over over, bool clicked) {
+  const bool dialogue = over == Over::dialogue || over == Over::question;
+  const bool has_keys = over == Over::list || over == Over::question;
+  if (on_ && (by_itself_ ? !has_keys : clicked || (of_dialogue_ && !dialogue))) leave();
+  const bool held = ImGui::IsKeyDown(GLFW_KEY_ENTER) || ImGui::IsKeyDown(GLFW_KEY_KP_ENTER) ||
+                    ImGui::IsKeyDown(GLFW_KEY_SPACE);
+  if (on_ || !has_keys || held) return;
+  on_ = by_itself_ = true;
+  of_dialogue_ = dialogue;
+  ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
+  if (over == Over::question) ImGui::GetCurrentContext()->NavDisableHighlight = false;
+}
+
+bool PanelKeys::begin(Over over) {
+  const bool dialogue = over == Over::dialogue || over == Over::question;
   ImGuiContext& g = *ImGui::GetCurrentContext();
   ImGuiIO& io = ImGui::GetIO();
   io.KeyMap[ImGuiKey_Tab] = -1;
@@ -95,7 +110,8 @@ bool PanelKeys::begin(bool dialogue) {
     // In ImGui 1.86, Enter is for fields alone.
     g.NavActivateId = g.NavActivateDownId = g.NavActivatePressedId = g.NavActivateInputId;
   }
-  if (on_ && (clicked || (of_dialogue_ && !dialogue))) leave();
+  escape_is_theirs_ = on_ && was_in_use_;  // though it may have closed the list by now
+  heed(over, clicked);
   if (const int on = std::exchange(goes_on_, 0); on != 0 && on_) go(on);
   const bool tab = ImGui::IsKeyPressed(GLFW_KEY_TAB, false) && !io.KeyCtrl && !io.KeyAlt;
   if (!tab) return false;
@@ -124,11 +140,11 @@ void PanelKeys::end() {
 }
 
 void PanelKeys::leave() {
-  on_ = false;
+  on_ = by_itself_ = false;
   asked_ = asked_before_ = goes_on_ = 0;
   ImGui::GetIO().ConfigFlags &= ~ImGuiConfigFlags_NavEnableKeyboard;
   ImGui::GetCurrentContext()->NavDisableHighlight = true;
-  ImGui::FocusWindow(nullptr);
+  if (!is_list_open()) ImGui::FocusWindow(nullptr);  // which would close it
 }
 
 }  // namespace curveskel::viewer

@@ -115,7 +115,8 @@ void messages(const Workbench& bench, const Area& picture, float scale) {
   }
 }
 
-/// The second column is wrapped where the window is narrow.
+/// The second column is wrapped where the window is narrow, and below the first where that leaves
+/// it no room.
 template <std::size_t Count>
 void help_lines(const std::array<std::array<const char*, 2>, Count>& lines, float screen) {
   float keys_width = 0;
@@ -125,7 +126,18 @@ void help_lines(const std::array<std::array<const char*, 2>, Count>& lines, floa
     widest = std::max(widest, ImGui::CalcTextSize(meaning).x);
   }
   const float margin = 4 * ImGui::GetFontSize();
-  const float room = std::max(screen - keys_width - margin, 8 * ImGui::GetFontSize());
+  const float room = screen - keys_width - margin;
+  if (room < 8 * ImGui::GetFontSize()) {
+    ImGui::PushTextWrapPos(screen - margin);
+    for (const auto& [keys, meaning] : lines) {
+      ImGui::TextUnformatted(keys);
+      ImGui::Indent();
+      ImGui::TextUnformatted(meaning);
+      ImGui::Unindent();
+    }
+    ImGui::PopTextWrapPos();
+    return;
+  }
   if (!ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) return;
   for (const auto& [keys, meaning] : lines) {
     ImGui::TableNextColumn();
@@ -167,7 +179,7 @@ void help(Panels& panels) {
         {"Space, Left, Right", "run or pause, one moment back or on"},
         {"Home, End", "the input, the newest"},
         {"S  E  K", "how the surface is drawn, its edges, how the skeleton is drawn"},
-        {"L, B", "light or dark, transparent background"},
+        {"L, B", "light or dark, pictures without background"},
         {"Ctrl-O, Ctrl-S, R", "open, save, read again"},
         {"F12", "a picture"},
         {"Ctrl + click on a slider", "type a number"},
@@ -199,6 +211,12 @@ void hint(const Workbench& bench, const Area& picture) {
                                           ImGui::GetColorU32(ImGuiCol_TextDisabled), text.c_str());
 }
 
+void description_at_pointer(const Workbench& bench, const Panels& panels) {
+  const std::string hovered = description_of(panels.hovered, bench);
+  if (hovered.empty() || ImGui::GetIO().WantCaptureMouse) return;
+  ImGui::SetTooltip("%s", hovered.c_str());
+}
+
 std::string missing_of(const VrmMeta& meta) {
   if (meta.name.empty() || meta.author.empty() || meta.licence_url.empty()) {
     return "a .vrm file needs the name of its figure, an author and a licence: fill in the fields "
@@ -213,13 +231,17 @@ std::string missing_of(const VrmMeta& meta) {
 }
 
 /// VRM's files must have these.
-FieldsForName vrm_fields(VrmMeta& meta) {
-  const auto draw = [&meta](bool focuses) {
-    const auto field = [&focuses](const char* label, const char* hint, std::string& text,
-                                  bool lacks) {
+FieldsForName vrm_fields(VrmMeta& meta, FieldText& texts) {
+  const auto draw = [&meta, &texts](bool focuses) {
+    const auto field = [&focuses, &texts](const char* label, const char* hint, std::string& text,
+                                          bool lacks) {
       if (lacks && std::exchange(focuses, false)) ImGui::SetKeyboardFocusHere();
       ImGui::SetNextItemWidth(-5 * ImGui::GetFontSize());
-      return ImGui::InputTextWithHint(label, hint, &text, ImGuiInputTextFlags_EnterReturnsTrue);
+      std::string shown = texts.in_field(text);
+      const bool entered =
+          ImGui::InputTextWithHint(label, hint, &shown, ImGuiInputTextFlags_EnterReturnsTrue);
+      text = texts.from_field(shown);
+      return entered;
     };
     const bool first = field("figure", "its name", meta.name, meta.name.empty());
     const bool second = field("author", "who made the figure", meta.author, meta.author.empty());
@@ -230,7 +252,7 @@ FieldsForName vrm_fields(VrmMeta& meta) {
 }
 
 void browser(Workbench& bench, Panels& panels) {
-  const auto chosen = panels.browser.draw(vrm_fields(bench.vrm));
+  const auto chosen = panels.browser.draw(vrm_fields(bench.vrm, panels.vrm_texts));
   if (!chosen) return;
   if (panels.browser.purpose() == FileBrowser::Purpose::open) {
     bench.open({*chosen});
@@ -270,7 +292,7 @@ std::string description_of_joint(int joint, const Rig& rig) {
 void ask_to_open(Panels& panels) {
   panels.browser.ask(FileBrowser::Purpose::open, "Open a surface or a skeleton", "",
                      "Surfaces: " + names_in(surface_formats) +
-                         ", also as .gz. Skeletons: obj, ply, cgal, swc, vtp, graphml, json.");
+                         ", vrm, also as .gz. Skeletons: obj, ply, cgal, swc, vtp, graphml, json.");
 }
 
 void ask_to_save(const Workbench& bench, Panels& panels) {
@@ -353,6 +375,7 @@ bool tick(const char* label, bool& value) {
 bool list_line(const char* label, bool present) {
   const bool chosen = ImGui::Selectable(label, present);
   if (present && ImGui::IsWindowAppearing()) ImGui::SetScrollHereY();
+  if (present) ImGui::SetItemDefaultFocus();
   return chosen;
 }
 
@@ -447,13 +470,12 @@ void draw_panels(Workbench& bench, Panels& panels, const Layout& layout) {
   status_bar(bench, panels, layout.status);
   messages(bench, layout.picture, panels.scale);
   hint(bench, layout.picture);
+  // Dialogues come last: in the frame in which one appears, ImGui 1.86 aborts where another window
+  // appears after it.
+  description_at_pointer(bench, panels);
   help(panels);
   browser(bench, panels);
   questions(bench, panels);
-  const std::string hovered = description_of(panels.hovered, bench);
-  if (!hovered.empty() && !ImGui::GetIO().WantCaptureMouse) {
-    ImGui::SetTooltip("%s", hovered.c_str());
-  }
 }
 
 void style_panels(Theme theme, float scale) {

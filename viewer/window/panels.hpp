@@ -67,6 +67,7 @@ struct Panels {
   bool may_be_coarse = true;  ///< while things move, where the machine is slow
   bool coarse = false;        ///< the picture is so now
   FileBrowser browser;
+  FieldText vrm_texts;
   Outline outline;  ///< of the rig
   Indentation indentation;
   int listed_joint = -1;  ///< whose line was last made to be seen

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <utility>
@@ -19,8 +20,7 @@ struct Choice {
   char key;  // 0 = Esc, which the controls hear
 };
 
-/// The number of the choice made in this frame, or -1. Not by Enter, which may have ended the
-/// dialogue before.
+/// The number of the choice made in this frame, or -1.
 int draw_choices(std::span<const Choice> offered) {
   int chosen = -1;
   const float width = 6 * ImGui::GetFontSize();
@@ -66,15 +66,14 @@ void ask_to_replace(Workbench& bench) {
   if (chosen == 0) bench.save(file, true);
 }
 
-void ask_to_abandon(Workbench& bench, Panels& panels) {
-  constexpr std::array<Choice, 3> offered{{{"Save", 'S'}, {"Discard", 'D'}, {"Stay", 0}}};
-  const bool asked = bench.wants_to_abandon.has_value();
-  const int chosen =
-      answer("Discard corrections?", asked, "The corrections by hand are in no file yet.", offered);
+/// `wait_or_save` begins what keeps all.
+void abandon(Workbench& bench, Panels& panels, int chosen,
+             const std::function<void()>& wait_or_save) {
   if (chosen < 0) return;
   const auto files = *std::exchange(bench.wants_to_abandon, std::nullopt);
   if (chosen == 0) {
-    ask_to_save(bench, panels);
+    bench.after_saving = files;
+    wait_or_save();
   } else if (chosen == 1 && files.empty()) {
     panels.may_leave = true;
   } else if (chosen == 1) {
@@ -82,11 +81,36 @@ void ask_to_abandon(Workbench& bench, Panels& panels) {
   }
 }
 
+void ask_to_abandon(Workbench& bench, Panels& panels) {
+  constexpr std::array<Choice, 3> offered{{{"Save", 'S'}, {"Discard", 'D'}, {"Stay", 0}}};
+  const bool asked = bench.wants_to_abandon && bench.saving_rig_to().empty();
+  const int chosen =
+      answer("Discard corrections?", asked, "The corrections by hand are in no file yet.", offered);
+  abandon(bench, panels, chosen, [&] { ask_to_save(bench, panels); });
+}
+
+/// A save that waits for its rig has the corrections, too.
+void ask_to_abandon_save(Workbench& bench, Panels& panels) {
+  constexpr std::array<Choice, 3> offered{{{"Wait", 'W'}, {"Discard", 'D'}, {"Stay", 0}}};
+  const std::string file = bench.saving_rig_to().string();
+  const bool asked = bench.wants_to_abandon && !file.empty();
+  const int chosen = answer("Discard the rig?", asked,
+                            file + " is not saved yet: its rig is still being made.", offered);
+  abandon(bench, panels, chosen, [] {});
+}
+
 }  // namespace
 
 void questions(Workbench& bench, Panels& panels) {
   ask_to_replace(bench);
-  ask_to_abandon(bench, panels);
+  if (!bench.would_lose()) bench.wants_to_abandon.reset();
+  if (!bench.wants_to_replace) {  // one after the other
+    ask_to_abandon(bench, panels);
+    ask_to_abandon_save(bench, panels);
+  }
+  const bool saves =
+      panels.browser.shown() || bench.wants_to_replace || !bench.saving_rig_to().empty();
+  if (!saves) bench.after_saving.reset();  // it was cancelled, or failed
 }
 
 }  // namespace curveskel::viewer

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -124,13 +125,19 @@ void verdicts(Workbench& bench, const Judgement& found, const CertificateLines& 
   }
 }
 
+/// What lies outside has none: it counts as without end.
+std::string centredness_words(double median, double p90) {
+  if (!std::isfinite(median)) return "none, half or more is outside";
+  if (!std::isfinite(p90)) return fmt::format("{:.3f}, a tenth or more is outside", median);
+  return fmt::format("{:.3f}, p90 {:.3f}", median, p90);
+}
+
 /// The figures that only tell.
 void measures(const Certificate& c, const CertificateLines& line) {
   line("deepest exit", fmt::format("{:.2g} D", c.deepest_exit), -1,
        "How far the skeleton comes out of the surface; D is the diagonal of the box round the "
        "model.");
-  line("centredness", fmt::format("{:.3f}, p90 {:.3f}", c.centredness_median, c.centredness_p90),
-       -1,
+  line("centredness", centredness_words(c.centredness_median, c.centredness_p90), -1,
        "How unequal the ways to the surface all round the skeleton are: 0 = in the very middle. In "
        "the median, and for 90 % of the length. A flat part has no better than 0.25 to 0.5.");
   line("coverage", fmt::format("{:.1f} %", 100 * c.coverage), -1,

@@ -83,15 +83,16 @@ class Viewer {
   }
 
  private:
-  /// Whoever closes the window is asked first if corrections would be lost.
+  /// Whoever closes the window is asked first if something would be lost.
   [[nodiscard]] bool leaves() {
     if (session_.interruption.token().stop_requested() || panels_.may_leave) return true;
-    if (glfwWindowShouldClose(window_.get()) == GLFW_FALSE && !controls_.wants_to_leave) {
+    if (glfwWindowShouldClose(window_.get()) == GLFW_FALSE && !controls_.wants_to_leave &&
+        !bench_.wants_to_leave) {
       return false;
     }
-    if (!bench_.history().unsaved()) return true;
+    if (!bench_.would_lose()) return true;
     glfwSetWindowShouldClose(window_.get(), GLFW_FALSE);
-    controls_.wants_to_leave = false;
+    controls_.wants_to_leave = bench_.wants_to_leave = false;
     bench_.wants_to_abandon.emplace();
     awake();
     return false;
@@ -211,12 +212,8 @@ class Viewer {
       letters_.want(in_reading_order(name));
     });
     if (letters_.update()) window_.renew_letters();
-    if (letters_.take_lacking()) {
-      bench_.say(
-          "a name has characters that no font of this system has, so that they are shown as ?; "
-          "Debian's fonts-noto-cjk has those of Chinese, Japanese and Korean, fonts-noto-core "
-          "those of most other scripts");
-    }
+    const std::string lacking = letters_.take_lacking();
+    if (!lacking.empty()) bench_.say(lacking);
   }
 
   /// Actions of panels and keys are done at once.

@@ -55,6 +55,7 @@ bool WindowPicture::draw(Scene& scene, int width, int height) {
             width,
             height,
             {}};
+  now.look.transparent_background = false;  // that of files; a window has nothing behind it
   if (!moving()) coarse_ = false;
   const bool same = now.shows_same(drawn_);
   const Pace::Load load{scene.sizes(), static_cast<double>(width) * height};

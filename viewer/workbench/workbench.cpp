@@ -102,7 +102,7 @@ void Workbench::open(const std::vector<fs::path>& files, bool may_abandon) {
     say("another file is still being opened", true);
     return;
   }
-  if (history_.unsaved() && !reloading_ && !may_abandon) {  // reading again keeps them
+  if (would_lose() && !reloading_ && !may_abandon) {  // reading again keeps corrections
     wants_to_abandon = files;
     return;
   }
@@ -177,9 +177,13 @@ void Workbench::take_document(std::shared_ptr<Scene> opened, bool same_place) {
   document_stop_.request_stop();
   document_stop_ = {};
   rig_again_ = false;
-  save_rig_to_.clear();
+  if (!save_rig_to_.empty()) {
+    say(save_rig_to_.string() + " was not saved: its surface was read anew meanwhile", true);
+    save_rig_to_.clear();
+  }
   wants_to_replace.reset();
   wants_to_abandon.reset();
+  after_saving.reset();
   opened->look = scene->look;
   if (same_place) opened->camera = scene->camera;
   scene = std::move(opened);
@@ -281,6 +285,20 @@ void Workbench::save_skeleton(const fs::path& file, SkeletonFormat format) {
   if (format != SkeletonFormat::png && format != SkeletonFormat::svg) history_.note_saved();
   note_saved(file);
   say("saved " + file.string());
+  go_on_after_saving();
+}
+
+/// With what waits for it, or is asked for meanwhile; which asks again where the file was none of
+/// the corrections, such as a picture.
+void Workbench::go_on_after_saving() {
+  auto next = std::exchange(after_saving, std::nullopt);
+  if (!next) next = std::exchange(wants_to_abandon, std::nullopt);
+  if (!next) return;
+  if (next->empty()) {
+    wants_to_leave = true;
+  } else {
+    open(*next);
+  }
 }
 
 std::string Workbench::suggested_name() const {

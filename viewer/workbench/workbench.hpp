@@ -89,8 +89,7 @@ class Workbench {
   [[nodiscard]] bool judging() const { return judging_.valid(); }
 
   // Files. A failure becomes a message, and the open files stay.
-  /// If corrections would be lost that are in no file, only sets `wants_to_abandon`, unless they
-  /// may be.
+  /// Where something would be lost (see `would_lose`), only sets `wants_to_abandon`, unless it may.
   void open(const std::vector<std::filesystem::path>& files, bool may_abandon = false);
   /// The open files stay.
   void cancel_opening();
@@ -103,6 +102,11 @@ class Workbench {
   /// its rig, which is made first if need be. Never onto the open surface; where another file would
   /// be replaced, `wants_to_replace` is set instead, unless it may be.
   void save(const std::filesystem::path& file, bool may_replace = false);
+  /// A rig is being made, to be saved here; empty = none.
+  [[nodiscard]] const std::filesystem::path& saving_rig_to() const { return save_rig_to_; }
+  /// Corrections that are in no file, or a save that waits for its rig, would be lost with what is
+  /// open.
+  [[nodiscard]] bool would_lose() const { return history_.unsaved() || !save_rig_to_.empty(); }
   [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return files_; }
   /// For the skeleton, or for the rig where that is shown: after the open file, and never its own.
   [[nodiscard]] std::string suggested_name() const;
@@ -116,8 +120,11 @@ class Workbench {
   void step(bool held = false);
   void cancel();
   void rewind();
-  /// Hides and shows branches of the skeleton that was made, by the detail wanted.
+  /// Hides and shows branches of the skeleton that was made, by the detail wanted. One that was
+  /// corrected has no other levels: its detail stays, and a message says so.
   void show_level();
+  /// The detail wanted is of another run.
+  [[nodiscard]] bool wants_finer_run() const;
   /// The detail of the run that goes on, or of what is shown, of which coarser levels are parts.
   [[nodiscard]] double detail_made() const;
   [[nodiscard]] Run::State run_state() const { return news_.state; }
@@ -203,9 +210,13 @@ class Workbench {
   std::shared_ptr<Scene> scene;  ///< never null
   RunOptions pipeline;
   VrmMeta vrm;  ///< of rigs that are saved as .vrm
-  /// Set when a person should be asked whether corrections that are in no file may be lost: for
-  /// these files, or, if there are none, for leaving.
+  /// Set when a person should be asked whether what `would_lose` says may be lost: for these files,
+  /// or, if there are none, for leaving.
   std::optional<std::vector<std::filesystem::path>> wants_to_abandon;
+  /// Set when the next save that succeeds is to be followed by this: these files are opened, or, if
+  /// there are none, `wants_to_leave` is set.
+  std::optional<std::vector<std::filesystem::path>> after_saving;
+  bool wants_to_leave = false;
   /// Set when the camera should go to where the scene is seen best.
   bool wants_fit = true;
   /// Set when a person should be asked whether this file may be replaced.
@@ -256,6 +267,7 @@ class Workbench {
   void choose_wished_joint();
   void save_skeleton(const std::filesystem::path& file, SkeletonFormat format);
   void note_saved(const std::filesystem::path& file);
+  void go_on_after_saving();
   void take_document(std::shared_ptr<Scene> opened, bool same_place);
   void show_made(Edited made, bool as_next_step);
   [[nodiscard]] bool shows_what_is_corrected();

@@ -243,9 +243,11 @@ void Workbench::save_rig(const std::filesystem::path& file, RigFormat format) {
   history_.note_saved();
   note_saved(file);
   say("saved " + file.string() + (without.empty() ? "" : ", the surface alone: " + without));
-  if (format != RigFormat::vrm) return;
-  const auto finding = posture_finding(character, {});
-  if (finding) say(*finding);
+  if (format == RigFormat::vrm) {
+    const auto finding = posture_finding(character, {});
+    if (finding) say(*finding);
+  }
+  go_on_after_saving();
 }
 
 }  // namespace curveskel::viewer

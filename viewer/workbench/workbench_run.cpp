@@ -171,12 +171,16 @@ double Workbench::detail_made() const {
   return history_.empty() ? EmbedOptions().detail : history_.now().detail_made;
 }
 
+bool Workbench::wants_finer_run() const {
+  const double wanted = std::max(pipeline.extract.embed.detail, EmbedOptions().detail);
+  return wanted != detail_made() && (run_ || !history_.corrected());
+}
+
 void Workbench::show_level() {
   double& detail = pipeline.extract.embed.detail;
   if (run_ || history_.empty()) return;  // a run shows its own at its end
   const Edited& now = history_.now();
-  // A finer one than was made needs a run.
-  if (detail == now.detail || (now.corrected && detail > now.detail_made)) return;
+  if (detail == now.detail) return;
   if (now.corrected) {
     detail = now.detail;
     say("a level is of the skeleton as it was made: take the corrections back (Ctrl-Z) first",
