@@ -282,7 +282,7 @@ SkinWeights skin_weights(const Surface& surface, const CurveSkeleton& skeleton,
   }
   SkinRun run(surface.positions.rows(), sources, options, monitor);
   return without_islands(surface, matrix_of(run.solve(parts), joints, options.least_weight),
-                         idx(options.most_joints));
+                         idx(options.most_joints), options.least_weight);
 }
 
 }  // namespace curveskel

@@ -173,8 +173,12 @@ namespace {
 
 class IslandTaker {
  public:
-  IslandTaker(const Surface& surface, const SkinWeights& weights, std::size_t kept)
-      : surface_(surface), kept_(kept), rows_(idx(weights.rows())), pieces_(surface_) {
+  IslandTaker(const Surface& surface, const SkinWeights& weights, std::size_t kept, double least)
+      : surface_(surface),
+        kept_(kept),
+        least_(least),
+        rows_(idx(weights.rows())),
+        pieces_(surface_) {
     for (Eigen::Index v = 0; v < weights.rows(); ++v) {
       if (surface_.place[idx(v)] != v) continue;
       for (SkinWeights::InnerIterator it(weights, v); it; ++it) {
@@ -263,11 +267,14 @@ class IslandTaker {
     for (const int next : surface_.neighbours(place)) {
       for (const auto& [joint, share] : rows_[idx(next)]) shares[joint] += share;
     }
-    return largest_shares({shares.begin(), shares.end()}, kept_);
+    WeightRow row = largest_shares({shares.begin(), shares.end()}, kept_);
+    std::erase_if(row, [&](const auto& entry) { return entry.second < least_; });
+    return largest_shares(std::move(row), kept_);
   }
 
   WeldedSurface surface_;
   std::size_t kept_;
+  double least_;
   std::vector<WeightRow> rows_;  // by place
   std::set<int> changed_;        // places
   WeightPieces pieces_;
@@ -275,9 +282,10 @@ class IslandTaker {
 
 }  // namespace
 
-SkinWeights without_islands(const Surface& surface, const SkinWeights& weights, std::size_t kept) {
+SkinWeights without_islands(const Surface& surface, const SkinWeights& weights, std::size_t kept,
+                            double least) {
   constexpr int most_rounds = 4;
-  IslandTaker taker(surface, weights, kept);
+  IslandTaker taker(surface, weights, kept, least);
   for (int round = 0; round < most_rounds; ++round) {
     if (!taker.take_once()) break;
   }

@@ -78,10 +78,11 @@ class WeightPieces {
 };
 
 /// Takes a joint's islands from it: the other joints of the vertices there have all, and a vertex
-/// without others the mean of its neighbours' rows, of which the largest `kept` shares stay.
+/// without others the mean of its neighbours' rows, of which the largest `kept` shares stay that
+/// are no smaller than `least`.
 /// Again, four times at most, as what is left may have islands in turn.
 /// Precondition: a row for each vertex of the surface. O((#V + #F) log #F).
 [[nodiscard]] SkinWeights without_islands(const Surface& surface, const SkinWeights& weights,
-                                          std::size_t kept);
+                                          std::size_t kept, double least = 0);
 
 }  // namespace curveskel
