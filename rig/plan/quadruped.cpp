@@ -90,9 +90,14 @@ int hips_of(const CurveTree& tree, const Limbs& limbs, const LimbPair& hind, dou
   const double crossing = tree.nodes[idx(hind.root)].z();
   const double height = tree.nodes[idx(hind.root)].y() - tree.ground;
   const double wanted = 0.5 * (crossing + ankle) - 0.1 * height;
+  // A tail that is held upright goes on and on at the same place.
+  constexpr double on_the_way = 0.2;
+  const Ways ways = ways_from(tree, hind.root);
+  const auto off = [&](int node) {
+    return std::abs(tree.nodes[idx(node)].z() - wanted) + on_the_way * ways.distance[idx(node)];
+  };
   int best = hind.root;
   for (const int node : limbs.trunk) {
-    const auto off = [&](int other) { return std::abs(tree.nodes[idx(other)].z() - wanted); };
     if (off(node) < off(best)) best = node;
   }
   return best;

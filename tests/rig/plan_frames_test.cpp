@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -290,8 +291,8 @@ TEST(FindPlan, AThinTailIsNoHeadHoweverHighItStands) {
       const int withers = figure.add({0, 8, 5 * front}, 1.4, rump);
       const int neck = figure.add({0, 10.5, 8 * front}, 0.8, withers);
       figure.add({0, 11, 10.5 * front}, 1, neck);
-      const int tail = figure.add({0, 8.5, -8.5 * front}, 0.4, rump);
-      figure.add({0, top, -10.5 * front}, 0.3, tail);
+      const int tail = figure.add({0, 8.5, -7.2 * front}, 0.4, rump);
+      figure.add({0, top, -7.4 * front}, 0.3, tail);
       for (const double z : {-6.0, 5.0}) {
         figure.add_pair(z < 0 ? rump : withers, {{1.5, 6, z * front}, {1.5, 0.5, z * front}}, 0.5);
       }
@@ -300,6 +301,8 @@ TEST(FindPlan, AThinTailIsNoHeadHoweverHighItStands) {
       ASSERT_EQ(plan.plan, BodyKind::quadruped) << plan.reason;
       ASSERT_NE(joint_of(plan, "head"), nullptr);
       EXPECT_GT(joint_of(plan, "head")->position.z() * front, 5) << "tail up to " << top;
+      ASSERT_NE(joint_of(plan, "spine"), nullptr);
+      EXPECT_LT(std::abs(joint_of(plan, "spine")->position.y() - 8), 1) << "tail up to " << top;
     }
   }
 }

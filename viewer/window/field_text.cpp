@@ -10,8 +10,8 @@ namespace {
 
 constexpr unsigned first_private = 0xE000;
 constexpr unsigned last_private = 0xF8FF;
-constexpr unsigned no_character = 0xFFFD;  // ImGui's word for one that it cannot hold
-constexpr std::string_view no_character_itself = "\xEF\xBF\xBD";
+constexpr unsigned unheld_character = 0xFFFD;  // ImGui's word for one that it cannot hold
+constexpr std::string_view unheld_character_itself = "\xEF\xBF\xBD";
 
 /// Of three bytes.
 std::string private_character(std::size_t number) {
@@ -48,8 +48,8 @@ std::string FieldText::in_field(std::string_view text) {
   while (!text.empty()) {
     unsigned character = 0;
     const std::string_view bytes = next_bytes(text, character);
-    const bool holds =
-        !is_private(character) && (character != no_character || bytes == no_character_itself);
+    const bool holds = !is_private(character) &&
+                       (character != unheld_character || bytes == unheld_character_itself);
     shown += holds ? std::string(bytes) : place_of(bytes);
     text.remove_prefix(bytes.size());
   }
