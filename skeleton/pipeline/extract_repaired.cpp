@@ -157,7 +157,7 @@ std::string why_again(const Certificate& certificate, const CertificateOptions& 
 /// Which of the failing components were wrapped.
 std::string which_were(std::size_t wrapped, std::size_t failing) {
   if (wrapped == failing) return "was wrapped";
-  return "was wrapped in " + std::to_string(wrapped) + " of " + std::to_string(failing) +
+  return "was wrapped in " + std::to_string(wrapped) + " of the " + std::to_string(failing) +
          " components (no wrap of the others has a certificate that holds)";
 }
 

@@ -5,10 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <stop_token>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include <curveskel/advanced/indices.hpp>
 #include <curveskel/read.hpp>
 #include <curveskel/topology.hpp>
 #include "meshes/shapes.hpp"
@@ -120,6 +124,66 @@ TEST(ThoroughExtractRepaired, WrapsWhatItCanWhereSomethingElseCannotBeHelped) {
   EXPECT_EQ(found.wrapped->repairs.faces_wrapped, ragged().surface.triangles.rows());
   EXPECT_NE(notes.back().find("1 of the 2 components"), std::string::npos) << notes.back();
   EXPECT_NE(notes.back().find("% of the length is inside"), std::string::npos) << notes.back();
+}
+
+/// Round the z axis, with the profile's radius at each of its places along it. Where the radius is
+/// below zero the surface has gone through the axis: faces that agree are inside out there, and
+/// are given the other way round.
+Surface with_turned_limb(const std::vector<std::pair<double, double>>& profile) {
+  constexpr int around = 24;
+  const auto rings = static_cast<int>(profile.size());
+  Surface body;
+  body.positions.resize(Eigen::Index{around} * rings + 2, 3);
+  std::vector<Eigen::RowVector3i> triangles;
+  const auto add = [&](bool is_turned, int a, int b, int c) {
+    triangles.emplace_back(a, is_turned ? c : b, is_turned ? b : c);
+  };
+  const int bottom = around * rings;
+  const int top = bottom + 1;
+  body.positions.row(bottom) << 0, 0, profile.front().first - 0.05;
+  body.positions.row(top) << 0, 0, profile.back().first + 0.05;
+  for (int ring = 0; ring < rings; ++ring) {
+    const auto& [z, radius] = profile[idx(ring)];
+    for (int k = 0; k < around; ++k) {
+      const double angle = 2 * std::numbers::pi * k / around;
+      const int here = around * ring + k;
+      const int next = around * ring + (k + 1) % around;
+      body.positions.row(here) << radius * std::cos(angle), radius * std::sin(angle), z;
+      if (ring == 0) add(false, bottom, next, here);
+      if (ring + 1 == rings) {
+        add(radius < 0, top, here, next);
+        continue;
+      }
+      const bool is_turned = profile[idx(ring + 1)].second < 0;
+      add(is_turned, here, next, next + around);
+      add(is_turned, here, next + around, here + around);
+    }
+  }
+  body.triangles.resize(static_cast<Eigen::Index>(triangles.size()), 3);
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    body.triangles.row(static_cast<Eigen::Index>(t)) = triangles[t];
+  }
+  return body;
+}
+
+TEST(ExtractRepaired, WrapsLimbsThatAreInsideOut) {
+  std::vector<std::pair<double, double>> profile;
+  for (int k = 0; k <= 16; ++k) {
+    const double z = -2 + 0.25 * k;
+    profile.emplace_back(z, std::sqrt(1.3 - 0.28 * z * z));
+  }
+  profile.emplace_back(2.1, 0.15);
+  for (int k = 0; k <= 24; ++k) profile.emplace_back(2.2 + 0.25 * k, -0.3);
+  const RepairedSurface repaired = repair(soup_of(with_turned_limb(profile)), {}, {});
+  ASSERT_GT(repaired.changes.faces_flipped, 0);
+  const RepairedExtraction found = extract_repaired(repaired, {}, {}, {});
+  ASSERT_TRUE(found.wrapped);
+  EXPECT_TRUE(holds(found));
+  EXPECT_EQ(found.extraction.certificate.tips, 2);
+  EXPECT_GT(found.extraction.skeleton.nodes.col(2).maxCoeff(), 7.5);
+  RepairOptions never;
+  never.wrap = Wrapping::never;
+  EXPECT_FALSE(extract_repaired(repaired, never, {}, {}).wrapped);
 }
 
 // Components that are made again one by one each said that they are too coarse to be faired.
