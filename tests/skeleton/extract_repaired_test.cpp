@@ -16,6 +16,7 @@
 #include <curveskel/read.hpp>
 #include <curveskel/topology.hpp>
 #include "meshes/shapes.hpp"
+#include "skeleton/pipeline/failing_components.hpp"
 #include "skeleton/pipeline/wrap_losses.hpp"
 #include "skeleton/pipeline/wraps_hold.hpp"
 #include "tests/real_surfaces.hpp"
@@ -127,63 +128,60 @@ TEST(ThoroughExtractRepaired, WrapsWhatItCanWhereSomethingElseCannotBeHelped) {
 }
 
 /// Round the z axis, with the profile's radius at each of its places along it. Where the radius is
-/// below zero the surface has gone through the axis: faces that agree are inside out there, and
-/// are given the other way round.
-Surface with_turned_limb(const std::vector<std::pair<double, double>>& profile) {
+/// below zero the circles run the other way round, so that the surface is inside out.
+Surface round_surface(const std::vector<std::pair<double, double>>& profile) {
   constexpr int around = 24;
   const auto rings = static_cast<int>(profile.size());
   Surface body;
   body.positions.resize(Eigen::Index{around} * rings + 2, 3);
-  std::vector<Eigen::RowVector3i> triangles;
-  const auto add = [&](bool is_turned, int a, int b, int c) {
-    triangles.emplace_back(a, is_turned ? c : b, is_turned ? b : c);
-  };
+  body.triangles.resize(Eigen::Index{2} * around * rings, 3);
   const int bottom = around * rings;
-  const int top = bottom + 1;
   body.positions.row(bottom) << 0, 0, profile.front().first - 0.05;
-  body.positions.row(top) << 0, 0, profile.back().first + 0.05;
+  body.positions.row(bottom + 1) << 0, 0, profile.back().first + 0.05;
+  Eigen::Index count = 0;
   for (int ring = 0; ring < rings; ++ring) {
     const auto& [z, radius] = profile[idx(ring)];
     for (int k = 0; k < around; ++k) {
       const double angle = 2 * std::numbers::pi * k / around;
       const int here = around * ring + k;
       const int next = around * ring + (k + 1) % around;
-      body.positions.row(here) << radius * std::cos(angle), radius * std::sin(angle), z;
-      if (ring == 0) add(false, bottom, next, here);
+      body.positions.row(here) << std::abs(radius) * std::cos(angle), radius * std::sin(angle), z;
+      if (ring == 0) body.triangles.row(count++) << bottom, next, here;
       if (ring + 1 == rings) {
-        add(radius < 0, top, here, next);
+        body.triangles.row(count++) << bottom + 1, here, next;
         continue;
       }
-      const bool is_turned = profile[idx(ring + 1)].second < 0;
-      add(is_turned, here, next, next + around);
-      add(is_turned, here, next + around, here + around);
+      body.triangles.row(count++) << here, next, next + around;
+      body.triangles.row(count++) << here, next + around, here + around;
     }
-  }
-  body.triangles.resize(static_cast<Eigen::Index>(triangles.size()), 3);
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    body.triangles.row(static_cast<Eigen::Index>(t)) = triangles[t];
   }
   return body;
 }
 
-TEST(ExtractRepaired, WrapsLimbsThatAreInsideOut) {
+TEST(FailingComponents, HaveLimbsThatAreInsideOut) {
   std::vector<std::pair<double, double>> profile;
   for (int k = 0; k <= 16; ++k) {
     const double z = -2 + 0.25 * k;
     profile.emplace_back(z, std::sqrt(1.3 - 0.28 * z * z));
   }
   profile.emplace_back(2.1, 0.15);
-  for (int k = 0; k <= 24; ++k) profile.emplace_back(2.2 + 0.25 * k, -0.3);
-  const RepairedSurface repaired = repair(soup_of(with_turned_limb(profile)), {}, {});
-  ASSERT_GT(repaired.changes.faces_flipped, 0);
-  const RepairedExtraction found = extract_repaired(repaired, {}, {}, {});
-  ASSERT_TRUE(found.wrapped);
-  EXPECT_TRUE(holds(found));
-  EXPECT_EQ(found.extraction.certificate.tips, 2);
-  EXPECT_GT(found.extraction.skeleton.nodes.col(2).maxCoeff(), 7.5);
-  RepairOptions never;
-  never.wrap = Wrapping::never;
-  EXPECT_FALSE(extract_repaired(repaired, never, {}, {}).wrapped);
+  CurveSkeleton of_body_alone;
+  of_body_alone.nodes = (Positions(2, 3) << 0, 0, -1, 0, 0, 1).finished();
+  of_body_alone.edges = (Edges(1, 2) << 0, 1).finished();
+  for (const double radius : {0.3, -0.3}) {
+    std::vector<std::pair<double, double>> with_limb = profile;
+    for (int k = 0; k <= 24; ++k) with_limb.emplace_back(2.2 + 0.25 * k, radius);
+    const Surface body = round_surface(with_limb);
+    EXPECT_EQ(has_turned_limbs(body), radius < 0);
+    for (const bool may_be_turned : {false, true}) {
+      const auto failing =
+          failing_components(body, topology(body), of_body_alone, {0, 0}, {}, may_be_turned, {});
+      EXPECT_EQ(failing.size(), may_be_turned && radius < 0 ? 1 : 0);
+    }
+  }
+  for (const Shape& shape : {shapes::torus(3, 1, 32), shapes::linked_rings(3, 0.5, 32)}) {
+    EXPECT_FALSE(has_turned_limbs(shape.surface)) << shape.name;
+  }
 }
 
 // Components that are made again one by one each said that they are too coarse to be faired.
