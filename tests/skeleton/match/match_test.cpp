@@ -9,6 +9,7 @@
 #include <set>
 #include <string>
 
+#include <curveskel/advanced/graph.hpp>
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/error.hpp>
 #include <curveskel/extract.hpp>
