@@ -122,7 +122,7 @@ class SideOfLeg {
   std::vector<Vector2d> vertices_;
 };
 
-/// What of a quadruped lies beyond a pair of legs.
+/// The part of a quadruped beyond a pair of legs.
 struct BeyondLegs {
   const CurveTree& tree;
   const Limbs& limbs;

@@ -12,7 +12,7 @@
 namespace curveskel::viewer::field_text_laws {
 namespace {
 
-/// What ImGui makes of a text that is edited.
+/// ImGui's own form of a text that is edited.
 std::string through_imgui(const std::string& text) {
   std::vector<ImWchar> wide(text.size() + 1);
   ImTextStrFromUtf8(wide.data(), static_cast<int>(wide.size()), text.c_str(), nullptr);

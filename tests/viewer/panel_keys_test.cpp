@@ -253,7 +253,7 @@ TEST_F(Typed, AJointIsChosenInTheListBySpaceAndByEnter) {
   EXPECT_EQ(bench.selected_joint(), -1);
 }
 
-// It ended the program, with all corrections.
+// The program ended so, with all corrections.
 TEST_F(Typed, ADialogueMayOpenByAKeyWhileThePointerRestsOnTheModel) {
   correct_something();
   point_at_the_model();
@@ -305,7 +305,7 @@ TEST_F(Typed, SaveInTheQuestionGoesOnOnceItIsSaved) {
   }
 }
 
-// It stayed, unseen, and had all keys.
+// The dialogue stayed, unseen, and had all keys.
 TEST_F(Typed, AQuestionEndsTheDialogueThatItComesOver) {
   correct_something();
   ask_to_open(panels);

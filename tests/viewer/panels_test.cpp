@@ -206,7 +206,7 @@ TEST_F(OnScreen, TheHelpIsNoWiderThanTheWindow) {
   }
 }
 
-// It ended the program, with all corrections.
+// The program ended so, with all corrections.
 TEST_F(OnScreen, AWorkingDirectoryThatIsGoneIsNoEnd) {
   const std::filesystem::path before = std::filesystem::current_path();
   const std::filesystem::path gone = folder.path() / "gone";
@@ -219,7 +219,7 @@ TEST_F(OnScreen, AWorkingDirectoryThatIsGoneIsNoEnd) {
   std::filesystem::current_path(before);
 }
 
-// What follows "##" was left out.
+// The rest after "##" was left out.
 TEST_F(OnScreen, TheFileWindowListsWholeNames) {
   const auto drawn = [&](const char* name) {
     const OwnFolder listed;

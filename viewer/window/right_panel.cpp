@@ -125,7 +125,7 @@ void verdicts(Workbench& bench, const Judgement& found, const CertificateLines& 
   }
 }
 
-/// What lies outside has none: it counts as without end.
+/// A curve outside has none: its distance counts as without end.
 std::string centredness_words(double median, double p90) {
   if (!std::isfinite(median)) return "none, half or more is outside";
   if (!std::isfinite(p90)) return fmt::format("{:.3f}, a tenth or more is outside", median);

@@ -89,7 +89,7 @@ class Workbench {
   [[nodiscard]] bool judging() const { return judging_.valid(); }
 
   // Files. A failure becomes a message, and the open files stay.
-  /// Where something would be lost (see `would_lose`), only sets `wants_to_abandon`, unless it may.
+  /// Only sets `wants_to_abandon` if something would be lost (see `would_lose`), unless it may.
   void open(const std::vector<std::filesystem::path>& files, bool may_abandon = false);
   /// The open files stay.
   void cancel_opening();
