@@ -79,9 +79,10 @@ class Rig:
 
     @property
     def plan(self):
-        """How the body is built: "humanoid", "quadruped", "bird", "biped-with-tail", "fish" or "other".
+        """How the body is built.
 
-        "none" where no plan was made: with `root`, `joints`, `keep_rig` or plan="none".
+        "humanoid", "quadruped", "bird", "biped-with-tail", "fish" or "other"; "none" where no plan
+        was made: with `root`, `joints`, `keep_rig` or plan="none".
         """
         return self.report["plan"]
 

@@ -169,7 +169,8 @@ class Skeleton:
     def branches(self):
         """DataFrame, one row a branch, the columns of `curveskel extract -o OUT.csv`.
 
-        Its first, `branch`, is the index. docs/numbers.md defines each. Lengths and radii are in the units of the surface.
+        Its first, `branch`, is the index. docs/numbers.md defines each. Lengths and radii are in
+        the units of the surface.
         """
         return self.branch_table()
 

@@ -37,16 +37,21 @@ bool is_leg(const CurveTree& tree, const LimbPair& pair, const LegLimits& limits
          mostly_down;
 }
 
+std::vector<int> legs_within(const CurveTree& tree, const Limbs& limbs, const LegLimits& limits) {
+  std::vector<int> legs;
+  for (int k = 0; k < static_cast<int>(limbs.pairs.size()); ++k) {
+    if (is_leg(tree, limbs.pairs[idx(k)], limits)) legs.push_back(k);
+  }
+  return legs;
+}
+
 /// Short or sprawling ones, as a crocodile's, if there are two pairs and no others: arms may hang
 /// so.
 std::vector<int> find_legs(const CurveTree& tree, const Limbs& limbs) {
-  std::vector<int> legs;
-  std::vector<int> with_sprawling_ones;
-  for (int k = 0; k < static_cast<int>(limbs.pairs.size()); ++k) {
-    if (is_leg(tree, limbs.pairs[idx(k)])) legs.push_back(k);
-    if (is_leg(tree, limbs.pairs[idx(k)], sprawling_legs)) with_sprawling_ones.push_back(k);
-  }
-  return legs.empty() && with_sprawling_ones.size() == 2 ? with_sprawling_ones : legs;
+  std::vector<int> legs = legs_within(tree, limbs, upright_legs);
+  if (!legs.empty()) return legs;
+  std::vector<int> sprawling = legs_within(tree, limbs, sprawling_legs);
+  return sprawling.size() == 2 ? sprawling : legs;
 }
 
 /// Of a body on one pair of legs a second pair, if it hangs down from another place of a trunk that
@@ -220,9 +225,7 @@ void name_biped(const CurveTree& tree, const Limbs& limbs, PlanFound& found) {
 /// With legs wide apart, as in a star jump: one sprawling pair, if what stands on it is human.
 std::optional<PlanFound> straddling_human(const CurveTree& tree, const Limbs& limbs) {
   PlanFound found;
-  for (int k = 0; k < static_cast<int>(limbs.pairs.size()); ++k) {
-    if (is_leg(tree, limbs.pairs[idx(k)], sprawling_legs)) found.legs.push_back(k);
-  }
+  found.legs = legs_within(tree, limbs, sprawling_legs);
   if (found.legs.size() != 1) return std::nullopt;
   found.arms = find_arms(tree, limbs, found.legs.front());
   name_biped(tree, limbs, found);
