@@ -58,7 +58,8 @@ CLI::Option* add_number(CLI::App& parser, const std::string& flag, Number& value
       ->check(CLI::Validator(within, ""));
 }
 
-/// --components, --min-size, --wrap, --wrap-gap, --least-sheet and --merge-overlapping.
+/// --components, --min-size, --wrap, --wrap-gap, --least-sheet, --least-handle
+/// and --merge-overlapping.
 void add_repair(CLI::App& parser, RepairOptions& options);
 
 /// --preset, which sets `repair` and `options` before any other option does, wherever it stands on

@@ -92,6 +92,8 @@ Json to_json(const Repairs& r) {
           {"specks_dropped", r.specks_dropped},
           {"sheets_dropped", r.sheets_dropped},
           {"sheets_thickened", r.sheets_thickened},
+          {"handles_cut", r.handles_cut},
+          {"longest_handle_loop", r.longest_handle_loop},
           {"not_chosen", r.not_chosen},
           {"faces_wrapped", r.faces_wrapped},
           {"wrapped_as_asked", r.wrapped_as_asked},
@@ -109,7 +111,7 @@ Json to_json(const RepairOptions& o) {
           {"components", o.components},       {"most_added_area", o.most_added_area},
           {"least_crumb", o.least_crumb},     {"wrap", name_of(wrappings, o.wrap)},
           {"wrap_gap", o.wrap_gap},           {"merge_overlapping", o.merge_overlapping},
-          {"least_sheet", o.least_sheet}};
+          {"least_sheet", o.least_sheet},     {"least_handle", o.least_handle}};
 }
 
 Json to_json(const ContractionOptions& o) {

@@ -43,6 +43,7 @@ OptionSetters repair_setters(RepairOptions& options) {
     if (options.components < 1 && word != "all") throw NeededInstead{needed};
   };
   return {{"components", set_components},
+          {"least_handle", sets(options.least_handle)},
           {"least_sheet", sets(options.least_sheet)},
           {"merge_overlapping", sets(options.merge_overlapping)},
           {"min_size", sets(options.least_area)},

@@ -139,7 +139,7 @@ void require_one_task(const EvaluateArguments& arguments) {
 void require_effect_on_rigs(const CLI::App& parser) {
   if (parser.count("--rig-truth") == 0) return;
   for (const char* name : {"--against", "--components", "--min-size", "--wrap", "--wrap-gap",
-                           "--least-sheet", "--merge-overlapping", "--strict"}) {
+                           "--least-sheet", "--least-handle", "--merge-overlapping", "--strict"}) {
     if (parser.count(name) == 0) continue;
     throw UsageError(std::string(name) +
                      " has no effect beside --rig-truth; leave out one of the two");

@@ -50,6 +50,10 @@ struct RepairOptions {
   /// bodies, if their extent is at least this, of D: wings and ears of one layer of triangles. 0 =
   /// all sheets are left out.
   double least_sheet = 0;
+  /// Handles with two loops no longer than this, of D, one round it and one through it, are cut: of
+  /// scans and volumes whose noise has handles. A wire and a deep hole have one such loop and stay.
+  /// 0 = none are cut, unless a certificate fails (see `extract_repaired`).
+  double least_handle = 0;
 
   [[nodiscard]] bool operator==(const RepairOptions&) const = default;
 };
@@ -93,6 +97,8 @@ struct Repairs {
   std::int64_t specks_dropped = 0;      ///< components below the least area
   std::int64_t sheets_dropped = 0;      ///< components that enclose nothing
   std::int64_t sheets_thickened = 0;    ///< see RepairOptions::least_sheet
+  std::int64_t handles_cut = 0;         ///< see RepairOptions::least_handle
+  double longest_handle_loop = 0;       ///< of those along which they were cut, of D
   std::int64_t not_chosen = 0;          ///< components beyond the number wanted
   std::int64_t faces_wrapped = 0;       ///< that a wrap stands for
   bool wrapped_as_asked = false;        ///< see Wrapping::all
@@ -125,8 +131,9 @@ struct RepairedSurface {
 /// (see `wrap`) if the wrap holds more than its own thickness, gives large sheets a thickness if so
 /// wanted. With `Wrapping::all`, wraps what the file holds, whole or not. Then leaves out
 /// coincident copies of components, crumbs, specks and sheets, merges components that overlap and
-/// leaves out all but the largest, if so wanted. Throws Error(Fault::input) if nothing with an
-/// inside is left, Cancelled on a stop. Deterministic. As fast as `clean` for a whole surface.
+/// leaves out all but the largest, if so wanted, and cuts small handles, if so wanted. Throws
+/// Error(Fault::input) if nothing with an inside is left, Cancelled on a stop. Deterministic. As
+/// fast as `clean` for a whole surface.
 [[nodiscard]] RepairedSurface repair(const PolygonSoup& soup, const RepairOptions& options = {},
                                      const Monitor& monitor = {}, int threads = 0);
 

@@ -17,6 +17,7 @@ inline constexpr std::string_view try_gentler = "gentler contraction";
 inline constexpr std::string_view try_level_sets = "level-set graph";
 inline constexpr std::string_view try_faired = "faired";
 inline constexpr std::string_view try_all_vertices = "all vertices";
+inline constexpr std::string_view try_handles_cut = "handles cut";
 inline constexpr std::string_view try_wrapped = "wrapped";
 
 enum class Outcome {

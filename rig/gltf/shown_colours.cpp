@@ -24,7 +24,8 @@ void show_colours(DressedMesh& mesh, const std::vector<bool>& is_pictured) {
   const std::vector<ColourRow> given = std::exchange(mesh.colours, {});
   for (DressedPart& part : mesh.parts) {
     if (part.colour_sets.empty()) continue;
-    part.colour_sets.insert(part.colour_sets.begin(), std::string(shown_colours));
+    part.colour_sets.emplace_back(shown_colours);
+    std::rotate(part.colour_sets.begin(), part.colour_sets.end() - 1, part.colour_sets.end());
     part.colour_sets.resize(std::min(part.colour_sets.size(), most_sets));
   }
   std::map<std::pair<std::int32_t, bool>, std::int32_t> rows;

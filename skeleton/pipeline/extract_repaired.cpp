@@ -14,6 +14,7 @@
 #include <curveskel/certificate.hpp>
 #include <curveskel/topology.hpp>
 #include "skeleton/graph/sound_skeleton.hpp"
+#include "skeleton/pipeline/extract_cut.hpp"
 #include "skeleton/pipeline/extraction_plans.hpp"
 #include "skeleton/pipeline/failing_components.hpp"
 #include "skeleton/pipeline/wrap_losses.hpp"
@@ -38,17 +39,6 @@ bool better(const Certificate& wider, const Certificate& narrower, int genus) {
   if ((wider.genus == genus) != (narrower.genus == genus)) return wider.genus == genus;
   constexpr double clearly = 0.05;  // of the vertices
   return wider.coverage > narrower.coverage + clearly;
-}
-
-/// Options with which one component alone is extracted as it will be among the others.
-ExtractOptions for_one(const ExtractOptions& options, double share_of_vertices) {
-  ExtractOptions one = options;
-  one.rims.clear();
-  if (options.resolution > 0) {
-    one.resolution =
-        std::max(1, static_cast<int>(std::lround(options.resolution * share_of_vertices)));
-  }
-  return one;
 }
 
 constexpr std::string_view turned_limbs =
@@ -142,7 +132,7 @@ std::vector<ComponentWrap> wraps_of(const std::vector<FailingComponent>& failing
     if (!crosses_itself(one.surface)) continue;
     const double share = double(one.surface.positions.rows()) / double(vertices);
     const WrapBudget budget = gap > 0 ? WrapBudget() : budget_for_one(failing.size());
-    auto best = best_wrap(one, gap, budget, for_one(options, share), room);
+    auto best = best_wrap(one, gap, budget, options_for_one(options, share), room);
     if (best) wraps.push_back({one.number, std::move(best->wrap)});
   }
   return wraps;
@@ -159,15 +149,6 @@ std::string which_were(std::size_t wrapped, std::size_t failing) {
   if (wrapped == failing) return "was wrapped";
   return "was wrapped in " + std::to_string(wrapped) + " of the " + std::to_string(failing) +
          " components (no wrap of the others has a certificate that holds)";
-}
-
-std::vector<FailingComponent> failing_of(const Surface& surface, const Extraction& extraction,
-                                         const CertificateOptions& options, bool may_be_turned,
-                                         const Monitor& monitor) {
-  const Topology counted = topology(surface);
-  return failing_components(surface, counted, extraction.skeleton,
-                            component_by_map(extraction.skeleton, counted), options, may_be_turned,
-                            monitor);
 }
 
 /// The results of the components that are not wrapped, as the surface with the wraps numbers them.
@@ -229,8 +210,18 @@ RepairedExtraction extracted(const RepairedSurface& repaired, const RepairOption
     if (turned_share(repaired.surface, tree) < least_turned) return std::nullopt;
     return std::string(turned_limbs);
   };
+  const auto why_cut = [&](const Plan<Extracted>::SoFar& so_far) -> std::optional<std::string> {
+    if (!so_far.best || as_repaired.wrap != Wrapping::needed) return std::nullopt;
+    const Certificate& found = so_far.best->found.extraction.certificate;
+    if (found.correct() || found.genus == 0) return std::nullopt;
+    return failures(found, its.certificate);
+  };
+  plans.push_back({try_handles_cut, why_cut, [&](const Plan<Extracted>::Room& room) {
+                     return extracted_without_small_handles(repaired, its, room);
+                   }});
   plans.push_back({try_wrapped, why, [&](const Plan<Extracted>::Room& room) {
-                     return extracted_from_wraps(repaired, as_repaired, its, room);
+                     const auto& left = room.so_far.best->found.wrapped;
+                     return extracted_from_wraps(left ? *left : repaired, as_repaired, its, room);
                    }});
   RepairedExtraction best = carry_out_plans(plans, monitor);
   const Repairs& repairs = best.wrapped ? best.wrapped->repairs : repaired.repairs;

@@ -201,4 +201,14 @@ RepairedExtraction carry_out_plans(const std::vector<Plan<Extracted>>& plans,
   return std::move(best.found);
 }
 
+ExtractOptions options_for_one(const ExtractOptions& options, double share_of_vertices) {
+  ExtractOptions one = options;
+  one.rims.clear();
+  if (options.resolution > 0) {
+    one.resolution =
+        std::max(1, static_cast<int>(std::lround(options.resolution * share_of_vertices)));
+  }
+  return one;
+}
+
 }  // namespace curveskel

@@ -53,4 +53,8 @@ struct Extracted {
 /// surface is closed and a manifold.
 [[nodiscard]] ExtractOptions admitted(const Surface& surface, const ExtractOptions& options);
 
+/// Options with which one component alone is extracted as it will be among the others.
+[[nodiscard]] ExtractOptions options_for_one(const ExtractOptions& options,
+                                             double share_of_vertices);
+
 }  // namespace curveskel

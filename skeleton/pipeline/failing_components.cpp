@@ -193,4 +193,13 @@ std::vector<FailingComponent> failing_components(const Surface& surface, const T
   return failing;
 }
 
+std::vector<FailingComponent> failing_of(const Surface& surface, const Extraction& extraction,
+                                         const CertificateOptions& options, bool may_be_turned,
+                                         const Monitor& monitor) {
+  const Topology counted = topology(surface);
+  return failing_components(surface, counted, extraction.skeleton,
+                            component_by_map(extraction.skeleton, counted), options, may_be_turned,
+                            monitor);
+}
+
 }  // namespace curveskel

@@ -5,6 +5,7 @@
 
 #include <curveskel/advanced/tree.hpp>
 #include <curveskel/certificate.hpp>
+#include <curveskel/extract.hpp>
 #include <curveskel/topology.hpp>
 
 namespace curveskel {
@@ -53,5 +54,11 @@ struct FailingComponent {
     const Surface& surface, const Topology& counted, const CurveSkeleton& skeleton,
     const std::vector<int>& component_of_node, const CertificateOptions& options,
     bool may_be_turned, const Monitor& monitor);
+
+/// The same for what was extracted from the surface.
+[[nodiscard]] std::vector<FailingComponent> failing_of(const Surface& surface,
+                                                       const Extraction& extraction,
+                                                       const CertificateOptions& options,
+                                                       bool may_be_turned, const Monitor& monitor);
 
 }  // namespace curveskel

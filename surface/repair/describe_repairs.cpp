@@ -106,6 +106,7 @@ void describe_repairs(Repairs& repairs, const Monitor& monitor) {
   said(repairs.specks_dropped, "speck", "specks",
        "left out (components with very little of the largest one's area; see --min-size)");
   describe_merging(repairs, monitor);
+  describe_cut_handles(repairs, false, monitor);
   said(repairs.not_chosen, "smaller component", "smaller components", "left out as asked");
 }
 
@@ -113,6 +114,12 @@ void describe_wrapped_components(Repairs& repairs, std::int64_t faces, const Mon
   line(repairs, monitor, repairs.components_wrapped, "component", "components",
        "wrapped (" + std::to_string(faces) +
            " faces), as the skeleton's certificate failed there; " + wrap_words(repairs));
+}
+
+void describe_cut_handles(Repairs& repairs, bool certificate_failed, const Monitor& monitor) {
+  line(repairs, monitor, repairs.handles_cut, "small handle", "small handles",
+       "cut, along loops up to " + share_words(repairs.longest_handle_loop) + " D long, as " +
+           (certificate_failed ? "the skeleton's certificate failed there" : "asked"));
 }
 
 }  // namespace curveskel

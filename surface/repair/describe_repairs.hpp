@@ -13,4 +13,7 @@ void describe_repairs(Repairs& repairs, const Monitor& monitor);
 /// wrap's lengths are those of `repairs`.
 void describe_wrapped_components(Repairs& repairs, std::int64_t faces, const Monitor& monitor);
 
+/// Adds the line of handles that were cut, as asked or since a certificate failed, and says it.
+void describe_cut_handles(Repairs& repairs, bool certificate_failed, const Monitor& monitor);
+
 }  // namespace curveskel

@@ -17,6 +17,7 @@
 #include "surface/mesh/nearest_vertex.hpp"
 #include "surface/repair/bodies_and_sheets.hpp"
 #include "surface/repair/close_surface.hpp"
+#include "surface/repair/cut_handles.hpp"
 #include "surface/repair/describe_repairs.hpp"
 #include "surface/repair/join_soup.hpp"
 #include "surface/repair/lies_in_plane.hpp"
@@ -390,6 +391,7 @@ void require_valid(const RepairOptions& options) {
   check.choice("wrap", options.wrap, wrappings);
   check.number("wrap_gap", options.wrap_gap, gap);
   check.number("least_sheet", options.least_sheet, share_range);
+  check.number("least_handle", options.least_handle, share_range);
 }
 
 RepairedSurface repair(const PolygonSoup& soup, const RepairOptions& options,
@@ -422,6 +424,7 @@ RepairedSurface repair(const PolygonSoup& soup, const RepairOptions& options,
       leave_out_components(result, {copy_distance, 0, false, 0, options.components}, monitor.stop);
     }
   }
+  cut_small_handles(result, options.least_handle, monitor.stop);
   describe_repairs(result.repairs, monitor);
   if (mended.was_cut) monitor.report("repair", 1);
   return std::move(result);

@@ -25,6 +25,13 @@ constexpr double least_roundness = 0.1;    // of a face afterwards, unless it wa
 constexpr int largest_valence = 12;
 constexpr Index dead = -1;
 
+/// The limits that a collapse keeps to, eased one after another when no edge may go any more.
+enum class Limits : std::uint8_t {
+  all,        ///< valence, roundness, turning
+  not_worse,  ///< faces may be as far from round as they were
+  turning,    ///< needles may come: of scans with needles everywhere each collapse makes one
+};
+
 constexpr int next(int corner) { return corner == 2 ? 0 : corner + 1; }
 constexpr int previous(int corner) { return corner == 0 ? 2 : corner - 1; }
 
@@ -60,8 +67,8 @@ class Pass {
   }
 
   // Returns how many vertices went.
-  std::size_t run(bool careful) {
-    careful_ = careful;
+  std::size_t run(Limits limits) {
+    limits_ = limits;
     const std::size_t excess =
         patch_.vertices.size() - static_cast<std::size_t>(options_.target_vertices);
     const std::size_t allowed = std::min(
@@ -147,7 +154,9 @@ class Pass {
     }
     const std::size_t total = std::accumulate(begin.begin(), begin.end(), std::size_t{0});
     const auto wanted =
-        careful_ ? static_cast<std::size_t>(considered_share * static_cast<double>(total)) : total;
+        limits_ == Limits::all
+            ? static_cast<std::size_t>(considered_share * static_cast<double>(total))
+            : total;
     std::uint16_t last = 0;  // keys up to this one are considered
     for (std::size_t i = 1; i < begin.size(); ++i) {
       begin[i] += begin[i - 1];
@@ -187,7 +196,7 @@ class Pass {
       return ++valence_b > 0;
     });
     const int valence = valence_a + valence_b - 4;
-    return common == 2 && valence >= 3 && (!careful_ || valence <= largest_valence);
+    return common == 2 && valence >= 3 && (limits_ != Limits::all || valence <= largest_valence);
   }
 
   // No face round `vertex` but those at `other` turns over or becomes a needle when it moves.
@@ -215,8 +224,9 @@ class Pass {
           fixed_side + (target - x).squaredNorm() + (target - y).squaredNorm();
       const double bound = least_roundness * least_roundness / 12;
       if (area_after >= bound * sides_after * sides_after) return true;
+      if (limits_ == Limits::turning) return area_after > 0;
       const double sides_before = fixed_side + (from - x).squaredNorm() + (from - y).squaredNorm();
-      return !careful_ &&
+      return limits_ == Limits::not_worse &&
              area_after * sides_before * sides_before >= area_before * sides_after * sides_after;
     });
   }
@@ -255,7 +265,7 @@ class Pass {
   std::vector<std::uint8_t> locked_;
   std::vector<std::uint32_t> stamp_;
   std::uint32_t token_ = 0;
-  bool careful_ = true;
+  Limits limits_ = Limits::all;
   std::vector<std::uint32_t> first_corner_;
   std::vector<std::uint32_t> corners_;
 };
@@ -267,16 +277,18 @@ std::vector<Index> collapse_edges(CollapsingPatch& patch, const CollapseOptions&
   const auto target = static_cast<std::size_t>(options.target_vertices);
   std::vector<std::vector<Index>> places;
   std::vector<Index> result(patch.vertices.size());
-  bool careful = true;
+  Limits limits = Limits::all;
   while (patch.vertices.size() > target) {
     Pass pass(patch, options);
     const std::size_t before = patch.vertices.size();
-    const std::size_t removed = pass.run(careful);
+    const std::size_t removed = pass.run(limits);
     places.push_back(pass.compact());
     between_passes(patch.vertices.size());
-    if (removed * 100 < std::min(before, 10 * (before - target))) {
-      if (!careful && removed == 0) break;
-      careful = false;
+    if (limits == Limits::all && removed * 100 < std::min(before, 10 * (before - target))) {
+      limits = Limits::not_worse;
+    } else if (removed == 0) {
+      if (limits == Limits::turning) break;
+      limits = Limits::turning;
     }
   }
   std::iota(result.begin(), result.end(), 0);

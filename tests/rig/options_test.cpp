@@ -90,7 +90,8 @@ TEST(Options, OutOfRangeAreRefusedByNameValueAndRange) {
          option("least_crumb", &O::least_crumb, "0..1", {0, 1}, {-1e-9, over_one}),
          option("wrap", &O::wrap, "one of never, needed, all", {0, 1, 2}, {3, 200}),
          option("wrap_gap", &O::wrap_gap, "0..0.5", {0, 0.5}, {-1e-9, 0.51}),
-         option("least_sheet", &O::least_sheet, "0..1", {0, 1}, {-1e-9, over_one})});
+         option("least_sheet", &O::least_sheet, "0..1", {0, 1}, {-1e-9, over_one}),
+         option("least_handle", &O::least_handle, "0..1", {0, 1}, {-1e-9, over_one})});
   }
   {
     using O = CoarsenOptions;

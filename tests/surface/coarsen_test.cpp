@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <random>
 #include <vector>
 
 #include <curveskel/advanced/measures.hpp>
@@ -36,6 +38,26 @@ Surface ring(int rings, int sides, double radius) {
   return surface;
 }
 
+/// A ring as volumes leave it: a grid's vertices drawn together by twos, threes and fours to almost
+/// one place, so that next to each round face there are needles.
+Surface ring_of_needles(int rings, int sides) {
+  Surface surface = ring(rings, sides, 0.3);
+  std::mt19937 random(7);
+  for (int i = 0; i < rings; ++i) {
+    for (int j = 0; j < sides; ++j) {
+      const int v = i * sides + j;
+      const std::array near{(i + 1) % rings * sides + j, i * sides + (j + 1) % sides,
+                            (i + rings - 1) % rings * sides + (j + 1) % sides};
+      const int to = near[random() % near.size()];
+      if (random() % 3 == 0) continue;
+      const double left = std::pow(10.0, -1.0 - static_cast<double>(random() % 5));
+      surface.positions.row(v) =
+          left * surface.positions.row(v) + (1 - left) * surface.positions.row(to);
+    }
+  }
+  return surface;
+}
+
 struct Case {
   const char* name;
   Surface surface;
@@ -48,6 +70,7 @@ const std::vector<Case>& cases() {
       {"fine ring", ring(400, 100, 0.3), 2000},
       {"very fine ring, first stage in parts", ring(700, 120, 0.3), 1000},
       {"thin ring", ring(2000, 8, 0.01), 9000},
+      {"needles", ring_of_needles(300, 100), 2000},
   };
   return all;
 }

@@ -136,6 +136,11 @@ void parameters(Workbench& bench) {
               "Open or flat parts of at least this extent, in diagonals of the box round "
               "the model, become thin bodies, with a skeleton and joints. 0 = all are left "
               "out; 0.1 for the wings and ears of a character.");
+    changed |= slide("least handle", bench.pipeline.repair.least_handle,
+                     RepairOptions().least_handle, 0, 1,
+                     "Smaller handles are cut, as noise leaves them in scans and volumes: those "
+                     "with a loop round them and one through them up to this long, in diagonals of "
+                     "the box round the model. 0 = none, unless the certificate fails.");
     ImGui::TreePop();
   }
   if (ImGui::Button("Defaults")) {
@@ -143,6 +148,7 @@ void parameters(Workbench& bench) {
     options = standard;
     options.fair.iterations = 0;
     bench.pipeline.repair.least_sheet = RepairOptions().least_sheet;
+    bench.pipeline.repair.least_handle = RepairOptions().least_handle;
     options.contraction.program_cache = options.fair.program_cache = cache;
     changed = true;
   }

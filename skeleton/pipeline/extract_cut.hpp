@@ -1,0 +1,16 @@
+// Another try of components whose certificate fails: without their small handles.
+#pragma once
+
+#include <curveskel/repair.hpp>
+#include "skeleton/pipeline/extraction_plans.hpp"
+
+namespace curveskel {
+
+/// Of each component that fails and has handles, the small ones are cut (see `cut_handles`), up to
+/// the least of `handle_lengths` with which the certificate of what is left holds, and the whole is
+/// extracted with these in their place. Gives up where there are none.
+[[nodiscard]] Extracted extracted_without_small_handles(const RepairedSurface& repaired,
+                                                        const ExtractOptions& options,
+                                                        const Plan<Extracted>::Room& room);
+
+}  // namespace curveskel
