@@ -23,45 +23,71 @@ std::string share_of_extent(double length) {
   return words.str();
 }
 
-/// What is left of a component, and the certificate of what is extracted from it.
+/// What is left of a component, and what is extracted from it.
 struct CutAttempt {
   CutSurface cut;
-  Certificate certificate;
+  Assembled made;
+  double longest = 0;  // of the loops that were looked for
 };
 
+/// `cut` has what was cut so far, along shorter loops.
 Plan<CutAttempt> cut_plan(const FailingComponent& failing, double length,
-                          const ExtractOptions& options) {
+                          const ExtractOptions& options, CutSurface& cut) {
   const auto why = [length](const auto& so_far) -> std::optional<std::string> {
     if (so_far.best) return std::nullopt;
     return "the component's certificate failed; handles with loops of up to " +
            share_of_extent(length) + " of its extent are cut";
   };
-  const auto make = [&failing, length, &options](const Plan<CutAttempt>::Room& room) {
+  const auto make = [&failing, length, &options, &cut](const Plan<CutAttempt>::Room& room) {
     const double longest = length * bounding_box_diagonal(failing.surface.positions);
-    CutSurface cut = cut_handles(failing.surface, longest, room.monitor.stop);
-    if (cut.handles_cut == 0) throw GaveUp("the component has no handle as small");
-    const Extraction found =
-        extract_once(cut.surface, options, room.monitor, nullptr, room.log, room.number).extraction;
-    for (int n = room.number + 1; n < room.log.next(); ++n) room.log.drop(n);
-    return CutAttempt{std::move(cut), found.certificate};
+    if (cut_more_handles(cut, longest, room.monitor.stop) == 0) {
+      throw GaveUp("the component has no more handles as small");
+    }
+    Assembled made =
+        extract_once(cut.surface, options, room.monitor, nullptr, room.log, room.number);
+    return CutAttempt{cut, std::move(made), longest};
   };
   return {try_handles_cut, why, make};
 }
 
-std::optional<CutSurface> least_cut(const FailingComponent& failing, const ExtractOptions& options,
+std::optional<CutAttempt> least_cut(const FailingComponent& failing, const ExtractOptions& options,
                                     const Plan<Extracted>::Room& room) {
+  CutSurface cut;
+  cut.surface = failing.surface;
   std::vector<Plan<CutAttempt>> plans;
-  for (const double length : handle_lengths) plans.push_back(cut_plan(failing, length, options));
-  auto best =
-      carry_out(
-          plans, {failing.number, room.number},
-          [](const CutAttempt& one, const CutAttempt* /*best*/) {
-            return one.certificate.correct();
-          },
-          [](const CutAttempt& one) { return in_brief(one.certificate); }, room.monitor, room.log)
-          .best;
-  if (!best) return std::nullopt;
-  return std::move(best->cut);
+  for (const double length : handle_lengths) {
+    plans.push_back(cut_plan(failing, length, options, cut));
+  }
+  const auto certificate = [](const CutAttempt& one) { return one.made.extraction.certificate; };
+  return carry_out(
+             plans, {failing.number, room.number},
+             [&](const CutAttempt& one, const CutAttempt* /*best*/) {
+               return certificate(one).correct();
+             },
+             [&](const CutAttempt& one) { return in_brief(certificate(one)); }, room.monitor,
+             room.log)
+      .best;
+}
+
+/// Throws GaveUp if one of what is left fails beside the other components.
+Assembled extracted_beside(const RepairedSurface& left, const std::vector<ComponentCut>& cuts,
+                           StandingResults standing, const ExtractOptions& options,
+                           const Plan<Extracted>::Room& room) {
+  ExtractOptions its = options;
+  its.rims = left.rims;
+  Assembled whole = extract_once(left.surface, its, room.monitor, nullptr, room.log, room.number,
+                                 std::move(standing));
+  const auto failing =
+      failing_of(left.surface, whole.extraction, options.certificate, false, room.monitor);
+  const bool fails_again = std::any_of(cuts.begin(), cuts.end(), [&](const ComponentCut& cut) {
+    return std::any_of(failing.begin(), failing.end(),
+                       [&](const auto& one) { return one.number == cut.component; });
+  });
+  if (fails_again) {
+    throw GaveUp("what is left fails beside the other components: " +
+                 failures(whole.extraction.certificate, options.certificate));
+  }
+  return whole;
 }
 
 }  // namespace
@@ -76,6 +102,10 @@ Extracted extracted_without_small_handles(const RepairedSurface& repaired,
   const Extracted& failed = *given.so_far.best;
   const CertificateOptions& judging = options.certificate;
   const double vertices = double(repaired.surface.positions.rows());
+  // Extracted alone, it is the whole.
+  const bool is_single = failed.components.size() == 1 && repaired.rims.empty();
+  std::optional<Assembled> alone;
+  double longest = 0;
   std::vector<ComponentCut> cuts;
   StandingResults standing;
   for (const ComponentResult& one : failed.components) standing.emplace_back(taken_over(one));
@@ -84,33 +114,24 @@ Extracted extracted_without_small_handles(const RepairedSurface& repaired,
   for (const FailingComponent& one : all_failing) {
     if (one.genus == 0) continue;
     const double share = double(one.surface.positions.rows()) / vertices;
-    auto cut = least_cut(one, options_for_one(options, share), room);
-    if (!cut) continue;
+    auto left = least_cut(one, options_for_one(options, share), room);
+    if (!left) continue;
     standing[idx(one.number)].reset();
-    cuts.push_back({one.number, std::move(*cut)});
+    if (is_single) alone = std::move(left->made);
+    longest = std::max(longest, left->longest);
+    cuts.push_back({one.number, std::move(left->cut)});
   }
   if (cuts.empty()) throw GaveUp("without small handles no certificate holds either");
   RepairedSurface left = with_handles_cut(repaired, cuts, silent);
-  ExtractOptions its = options;
-  its.rims = left.rims;
   Assembled whole =
-      extract_once(left.surface, its, silent, nullptr, room.log, room.number, std::move(standing));
-  const auto still_failing = failing_of(left.surface, whole.extraction, judging, false, silent);
-  const bool fails_again = std::any_of(cuts.begin(), cuts.end(), [&](const ComponentCut& cut) {
-    return std::any_of(still_failing.begin(), still_failing.end(),
-                       [&](const auto& one) { return one.number == cut.component; });
-  });
-  if (fails_again) {
-    throw GaveUp("what is left fails beside the other components: " +
-                 failures(whole.extraction.certificate, judging));
-  }
+      alone ? std::move(*alone) : extracted_beside(left, cuts, std::move(standing), options, room);
   const Repairs& repairs = left.repairs;
-  const std::string note = "the certificate failed (" +
-                           failures(failed.found.extraction.certificate, judging) + "), so " +
-                           std::to_string(repairs.handles_cut) +
-                           " small handles were cut, and the skeleton "
-                           "extracted again; to evaluate it, use --least-handle " +
-                           share_of_extent(repairs.longest_handle_loop);
+  const std::string note =
+      "the certificate failed (" + failures(failed.found.extraction.certificate, judging) +
+      "), so " + std::to_string(repairs.handles_cut) +
+      " small handles were cut, and the skeleton "
+      "extracted again; to evaluate it, use --least-handle " +
+      share_of_extent(longest / bounding_box_diagonal(repaired.surface.positions));
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
   whole.extraction.times = {{"second try", taken.count()}};
   return {RepairedExtraction{std::move(whole.extraction), std::move(left)}, note,

@@ -154,30 +154,30 @@ void note(Repairs& repairs, const CutSurface& cut, double diagonal) {
 }  // namespace
 
 CutSurface cut_handles(const Surface& surface, double longest, const std::stop_token& stop) {
-  CutSurface result;
-  result.surface = surface;
+  CutSurface cut;
+  cut.surface = surface;
+  cut_more_handles(cut, longest, stop);
+  return cut;
+}
+
+std::int64_t cut_more_handles(CutSurface& cut, double longest, const std::stop_token& stop) {
+  const std::int64_t before = cut.handles_cut;
   for (;;) {
     throw_if_stopped(stop);
     const HalfEdges pairs = pair_half_edges(
-        result.surface.triangles, static_cast<std::int32_t>(result.surface.positions.rows()));
-    const Stars stars(result.surface, pairs);
+        cut.surface.triangles, static_cast<std::int32_t>(cut.surface.positions.rows()));
+    const Stars stars(cut.surface, pairs);
     const std::vector<EdgeLoop> loops = loops_to_cut(stars, longest);
-    if (loops.empty()) break;
+    if (loops.empty()) return cut.handles_cut - before;
     Cutting cutting(stars);
     for (const EdgeLoop& loop : loops) {
       cutting.cut(loop);
-      result.longest_loop =
-          std::max(result.longest_loop, length_of(loop, result.surface.positions));
-      std::copy_if(loop.begin(), loop.end(), std::back_inserter(result.on_a_loop),
-                   [&](std::int32_t v) { return v < surface.positions.rows(); });
+      cut.longest_loop = std::max(cut.longest_loop, length_of(loop, cut.surface.positions));
+      cut.on_a_loop.insert(cut.on_a_loop.end(), loop.begin(), loop.end());
     }
-    result.handles_cut += std::ssize(loops);
-    result.surface = cutting.surface();
+    cut.handles_cut += std::ssize(loops);
+    cut.surface = cutting.surface();
   }
-  std::sort(result.on_a_loop.begin(), result.on_a_loop.end());
-  result.on_a_loop.erase(std::unique(result.on_a_loop.begin(), result.on_a_loop.end()),
-                         result.on_a_loop.end());
-  return result;
 }
 
 void cut_small_handles(RepairedSurface& repaired, double least_handle,

@@ -17,20 +17,21 @@ struct CutSurface {
   Surface surface;  ///< the vertices given in their order, then those that the cuts added
   std::int64_t handles_cut = 0;
   double longest_loop = 0;              ///< of those along which it was cut
-  std::vector<std::int32_t> on_a_loop;  ///< the vertices given that moved, as a cut went by them
+  std::vector<std::int32_t> on_a_loop;  ///< vertices that moved, as a cut went through them
 };
 
-/// Cuts each handle that has two loops of edges no longer than `longest`, one round it and one
-/// through it, along the shorter one, and closes both sides by fans: a thin bridge becomes two
-/// stumps, a thin tunnel two pits. A long thin handle (a wire) and a deep narrow hole have one such
-/// loop only, and stay. The loops are those that leave a tree of shortest ways and come back to it
-/// by one edge; of these the shortest that together generate the homology (Erickson and Whittlesey
-/// 2005, but lengths count from where the two ways part, as handles are small and the root is far).
-/// Vertices beside a cut move away from it by a quarter of their edges, so that its sides don't
-/// touch. Precondition: closed oriented 2-manifold. Throws Cancelled on a stop. O(n log n) for each
-/// round, of which there are few: handles that share a vertex wait for the next one.
+/// Cuts the surface along loops of edges no longer than `longest` that do not part it (see
+/// `short_loops`), if it opens out on both sides of them (see `opens_out`), and closes both sides
+/// by fans: a short bridge becomes two stumps, a short tunnel two pits. Each cut takes one handle.
+/// Wires and deep holes do not open out, and stay. Vertices beside a cut move away from it by a
+/// quarter of their edges, so that its sides do not touch. Precondition: closed oriented
+/// 2-manifold. Throws Cancelled on a stop. O(n log n) for each round, of which there are few:
+/// handles that share a vertex wait for the next one.
 [[nodiscard]] CutSurface cut_handles(const Surface& surface, double longest,
                                      const std::stop_token& stop = {});
+
+/// The same with what earlier cuts left; returns how many handles were cut now.
+std::int64_t cut_more_handles(CutSurface& cut, double longest, const std::stop_token& stop);
 
 /// Lengths of loops, of a component's extent, up to which handles are cut where its certificate
 /// fails. From short to long, so that no more is lost than need be.
