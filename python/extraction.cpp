@@ -22,7 +22,7 @@ PythonExtraction extract_soup(PolygonSoup soup, const ExtractSettings& settings,
   noting.note = [&result](std::string_view line) { result.notes.emplace_back(line); };
   RepairedExtraction found =
       extract_repaired(result.repaired, settings.repair, settings.extract, noting);
-  if (found.wrapped) result.repaired = std::move(*found.wrapped);
+  if (found.repaired_again) result.repaired = std::move(*found.repaired_again);
   result.extraction = std::move(found.extraction);
   result.skeleton = on_input_vertices(result.repaired, result.extraction.skeleton);
   return result;

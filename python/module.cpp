@@ -312,7 +312,7 @@ py::dict evaluate_in_background(const PolygonSoup& soup, const CurveSkeleton& sk
   run_beside_interpreter(listener, [&](const Monitor& monitor) {
     RepairedSurface repaired = repair(soup, as_repaired, monitor, certificate.threads);
     found = evaluate_repaired(repaired, as_repaired, skeleton, certificate, monitor);
-    if (found.wrapped) repaired = std::move(*found.wrapped);
+    if (found.repaired_again) repaired = std::move(*found.repaired_again);
     if (!against) return;
     comparison = compare_skeletons(skeleton, *against, repaired.surface, certificate, monitor);
   });

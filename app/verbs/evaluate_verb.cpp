@@ -169,7 +169,7 @@ int run_evaluate(const EvaluateArguments& arguments, Session& session) {
   evaluation.options = arguments.options;
   RepairedEvaluation found =
       evaluate_repaired(repaired, arguments.repair, skeleton, arguments.options, monitor);
-  if (found.wrapped) repaired = std::move(*found.wrapped);
+  if (found.repaired_again) repaired = std::move(*found.repaired_again);
   evaluation.repairs = repaired.repairs;
   evaluation.certificate = found.certificate;
   const Certificate& certificate = evaluation.certificate;

@@ -275,7 +275,7 @@ int run_extract(ExtractArguments arguments, Session& session) {
   monitor.note = [&notes](std::string_view line) { notes.emplace_back(line); };
   RepairedExtraction found =
       extract_repaired(repaired, arguments.repair, arguments.options, monitor);
-  if (found.wrapped) repaired = std::move(*found.wrapped);
+  if (found.repaired_again) repaired = std::move(*found.repaired_again);
   const Extraction& extraction = found.extraction;
   times.insert(times.end(), extraction.times.begin(), extraction.times.end());
 

@@ -52,7 +52,7 @@ Extracted extracted(const std::filesystem::path& file, const MatchArguments& arg
   result.repaired = repair(result.soup, arguments.repair, monitor, threads);
   RepairedExtraction found =
       extract_repaired(result.repaired, arguments.repair, arguments.extract, monitor);
-  if (found.wrapped) result.repaired = std::move(*found.wrapped);
+  if (found.repaired_again) result.repaired = std::move(*found.repaired_again);
   const std::string failed =
       all_failures(found.extraction.certificate, arguments.extract.certificate);
   if (!failed.empty()) session.terminal.warn(name_of_input(file) + ": " + failed);

@@ -12,7 +12,7 @@ namespace curveskel {
 struct RepairedEvaluation {
   Certificate certificate;
   /// The surface of the certificate, if it is not the surface given.
-  std::optional<RepairedSurface> wrapped;
+  std::optional<RepairedSurface> repaired_again;
 };
 
 /// `evaluate`. If it does not hold and `as_repaired.wrap` is `needed`: components that it fails for

@@ -68,7 +68,7 @@ Curve curve_for(const RigSources& sources, const RigPolygonsOptions& options, Re
     wanted.embed.detail = options.extract.embed.detail;
     found = extract_repaired(body, options.repair, wanted, monitor, cache);
   }
-  if (found.wrapped) body = std::move(*found.wrapped);
+  if (found.repaired_again) body = std::move(*found.repaired_again);
   curve.certificate = found.extraction.certificate;
   curve.certificate->curve_like = made_of_tubes_but_for_sheets(curve.certificate->tube_share, body);
   curve.skeleton = std::move(found.extraction.skeleton);

@@ -70,9 +70,9 @@ RepairedEvaluation evaluate_repaired(const RepairedSurface& repaired,
     if (wrap) wraps.push_back({failing.number, std::move(*wrap)});
   }
   if (wraps.empty()) return result;
-  result.wrapped = with_wraps(repaired, wraps, monitor);
-  result.certificate = evaluate(result.wrapped->surface, skeleton, options, monitor);
-  result.certificate.wrap_followed = result.wrapped->repairs.wrap_followed;
+  result.repaired_again = with_wraps(repaired, wraps, monitor);
+  result.certificate = evaluate(result.repaired_again->surface, skeleton, options, monitor);
+  result.certificate.wrap_followed = result.repaired_again->repairs.wrap_followed;
   return result;
 }
 

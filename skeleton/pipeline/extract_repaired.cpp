@@ -220,11 +220,11 @@ RepairedExtraction extracted(const RepairedSurface& repaired, const RepairOption
                      return extracted_without_small_handles(repaired, its, room);
                    }});
   plans.push_back({try_wrapped, why, [&](const Plan<Extracted>::Room& room) {
-                     const auto& left = room.so_far.best->found.wrapped;
+                     const auto& left = room.so_far.best->found.repaired_again;
                      return extracted_from_wraps(left ? *left : repaired, as_repaired, its, room);
                    }});
   RepairedExtraction best = carry_out_plans(plans, monitor);
-  const Repairs& repairs = best.wrapped ? best.wrapped->repairs : repaired.repairs;
+  const Repairs& repairs = best.repaired_again ? best.repaired_again->repairs : repaired.repairs;
   best.extraction.certificate.wrap_followed = repairs.wrap_followed;
   return best;
 }
@@ -235,7 +235,7 @@ bool wraps_hold(const RepairedExtraction& found, const std::vector<ComponentWrap
                 const CertificateOptions& options, const Monitor& monitor) {
   if (found.extraction.certificate.correct()) return true;
   const auto failing =
-      failing_of(found.wrapped->surface, found.extraction, options, false, monitor);
+      failing_of(found.repaired_again->surface, found.extraction, options, false, monitor);
   int added = 0;  // components so far that wraps have beyond one each
   for (const ComponentWrap& one : wraps) {
     const int first = one.component + added;

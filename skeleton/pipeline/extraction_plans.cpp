@@ -45,7 +45,7 @@ bool takes(const Extracted& other, const Extracted* best) {
   if (best == nullptr) return true;
   const Certificate& a = other.found.extraction.certificate;
   const Certificate& b = best->found.extraction.certificate;
-  if (other.found.wrapped) {
+  if (other.found.repaired_again) {
     return std::pair(a.topology_correct(), a.inside_enough) >=
            std::pair(b.topology_correct(), b.inside_enough);
   }
@@ -189,8 +189,8 @@ RepairedExtraction carry_out_plans(const std::vector<Plan<Extracted>>& plans,
     spent.times.push_back({one.name == try_wrapped ? "wrap" : "second try", one.seconds});
   }
   Extraction& result = best.found.extraction;
-  result.reused =
-      best.found.wrapped ? std::vector<std::string>() : only_reused(spent.reused, spent.times);
+  result.reused = best.found.repaired_again ? std::vector<std::string>()
+                                            : only_reused(spent.reused, spent.times);
   result.times = std::move(spent.times);
   // A component that a later try took over is part of the result, its try of the whole is not.
   for (const ComponentResult& one : best.components) {

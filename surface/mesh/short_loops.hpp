@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <stop_token>
 #include <vector>
 
 #include <curveskel/surface.hpp>
@@ -45,14 +46,17 @@ class Stars {
   std::vector<std::int32_t> out_;
 };
 
-/// Of a basis of the homology (with coefficients in Z/2) the loops no longer than `longest`,
-/// shortest first. The loops are those that leave a tree of shortest ways from one vertex of each
-/// component and come back to it by one edge, without the part of their way that they have in
-/// common; the basis is the one of the least length among these, found greedily (Erickson and
-/// Whittlesey 2005). So a small handle has two loops of its own size here, however far from the
-/// root it is. None passes a vertex twice. O(n log n), and for each edge as many steps as edges
-/// make `longest`.
-[[nodiscard]] std::vector<EdgeLoop> short_loops(const Stars& stars, double longest);
+/// Loops no longer than `longest` that do not part the surface, the shortest first: at each vertex
+/// of a basis of the homology the shortest loop through it, if it is as short, with coefficients in
+/// Z/2. Each loop that does not part the surface meets such a vertex. None passes a vertex twice;
+/// the same loop may be there several times. The basis has the loops that leave a tree of shortest
+/// ways and come back to it by one edge (Eppstein 2003), the shortest first, without the part that
+/// both ways have in common, so that those of a small handle are of its own size. A loop that parts
+/// nothing is known by the sum of its edges' classes (Busaryev, Cabello, Chen, Dey and Wang 2012),
+/// of which 64 random bits are kept: a wrong answer has a chance of 2^-64. O(n log n), and the
+/// vertices within half of `longest` of each of the basis.
+[[nodiscard]] std::vector<EdgeLoop> short_loops(const Stars& stars, double longest,
+                                                const std::stop_token& stop);
 
 /// True if on either side of the loop the surface within the distance `reach` of it has more area
 /// than reach^2, as a tube round which the loop is no longer than `reach` has not: the loop lies

@@ -8,6 +8,7 @@
 
 #include <curveskel/advanced/indices.hpp>
 #include <curveskel/advanced/measures.hpp>
+#include <curveskel/advanced/union_find.hpp>
 #include <curveskel/topology.hpp>
 #include "surface/mesh/half_edges.hpp"
 #include "surface/mesh/short_loops.hpp"
@@ -17,18 +18,44 @@
 namespace curveskel {
 namespace {
 
-/// Those round short necks that share no vertex with an earlier one: together they part nothing, as
-/// they are independent in the homology.
-std::vector<EdgeLoop> loops_to_cut(const Stars& stars, double longest) {
+/// Loops round short necks, of which none shares a vertex with an earlier, shorter one.
+std::vector<EdgeLoop> loops_apart(const Stars& stars, double longest, const std::stop_token& stop) {
   std::vector<char> taken(idx(stars.surface().positions.rows()), 0);
   std::vector<EdgeLoop> chosen;
-  for (EdgeLoop& loop : short_loops(stars, longest)) {
+  for (EdgeLoop& loop : short_loops(stars, longest, stop)) {
     const auto is_free = [&](std::int32_t v) { return taken[idx(v)] == 0; };
     if (!std::all_of(loop.begin(), loop.end(), is_free) || !opens_out(stars, loop, longest)) {
       continue;
     }
     for (const std::int32_t v : loop) taken[idx(v)] = 1;
     chosen.push_back(std::move(loop));
+  }
+  return chosen;
+}
+
+/// Those that part nothing all together. All of them would cut the surface into regions; a tree
+/// that joins the regions again takes the longest.
+std::vector<EdgeLoop> loops_to_cut(const Stars& stars, double longest,
+                                   const std::stop_token& stop) {
+  std::vector<EdgeLoop> loops = loops_apart(stars, longest, stop);
+  std::vector<char> is_on_loop(idx(stars.half_edges()), 0);
+  std::vector<std::int32_t> edge_of;  // one of each loop
+  for (const EdgeLoop& loop : loops) {
+    std::int32_t h = -1;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      h = stars.between(loop[i], loop[(i + 1) % loop.size()]);
+      is_on_loop[idx(h)] = is_on_loop[idx(stars.twin(h))] = 1;
+    }
+    edge_of.push_back(h);
+  }
+  UnionFind regions(stars.surface().triangles.rows());
+  for (std::int32_t h = 0; h < stars.half_edges(); ++h) {
+    if (is_on_loop[idx(h)] == 0) regions.unite(h / 3, stars.twin(h) / 3);
+  }
+  std::vector<EdgeLoop> chosen;
+  for (std::size_t k = loops.size(); k-- > 0;) {
+    const std::int32_t h = edge_of[k];
+    if (!regions.unite(h / 3, stars.twin(h) / 3)) chosen.push_back(std::move(loops[k]));
   }
   return chosen;
 }
@@ -167,8 +194,8 @@ std::int64_t cut_more_handles(CutSurface& cut, double longest, const std::stop_t
     const HalfEdges pairs = pair_half_edges(
         cut.surface.triangles, static_cast<std::int32_t>(cut.surface.positions.rows()));
     const Stars stars(cut.surface, pairs);
-    const std::vector<EdgeLoop> loops = loops_to_cut(stars, longest);
-    if (loops.empty()) return cut.handles_cut - before;
+    const std::vector<EdgeLoop> loops = loops_to_cut(stars, longest, stop);
+    if (loops.empty()) break;
     Cutting cutting(stars);
     for (const EdgeLoop& loop : loops) {
       cutting.cut(loop);
@@ -178,6 +205,10 @@ std::int64_t cut_more_handles(CutSurface& cut, double longest, const std::stop_t
     cut.handles_cut += std::ssize(loops);
     cut.surface = cutting.surface();
   }
+  std::vector<std::int32_t>& moved = cut.on_a_loop;
+  std::sort(moved.begin(), moved.end());
+  moved.erase(std::unique(moved.begin(), moved.end()), moved.end());
+  return cut.handles_cut - before;
 }
 
 void cut_small_handles(RepairedSurface& repaired, double least_handle,

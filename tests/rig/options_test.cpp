@@ -80,7 +80,7 @@ TEST(Options, OutOfRangeAreRefusedByNameValueAndRange) {
   const double over_one = 1 + 1e-9;
   {
     using O = RepairOptions;
-    [[maybe_unused]] const auto& [a, b, c, d, e, f, g, h, i] = O{};
+    [[maybe_unused]] const auto& [a, b, c, d, e, f, g, h, i, j] = O{};
     expect_ranges<O>(
         "RepairOptions",
         {option("join_distance", &O::join_distance, "0..0.1", {0, 0.1}, {-1e-9, 0.11}),

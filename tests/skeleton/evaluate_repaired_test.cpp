@@ -36,18 +36,18 @@ TEST(EvaluateRepaired, AgreesWithTheExtractionFromAWrap) {
     SCOPED_TRACE(shape.name);
     const RepairedSurface repaired = given(shape);
     const RepairedExtraction made = extract_repaired(repaired, {}, {}, {});
-    ASSERT_TRUE(made.wrapped && made.extraction.certificate.correct());
+    ASSERT_TRUE(made.repaired_again && made.extraction.certificate.correct());
     EXPECT_FALSE(evaluate(repaired.surface, made.extraction.skeleton, {}, {}).correct());
     const RepairedEvaluation found =
         evaluate_repaired(repaired, {}, made.extraction.skeleton, {}, {});
-    ASSERT_TRUE(found.wrapped);
+    ASSERT_TRUE(found.repaired_again);
     EXPECT_TRUE(found.certificate.correct());
-    EXPECT_EQ(found.wrapped->repairs.components_wrapped, 1);
+    EXPECT_EQ(found.repaired_again->repairs.components_wrapped, 1);
     RepairOptions never;
     never.wrap = Wrapping::never;
     const RepairedEvaluation as_it_is =
         evaluate_repaired(repaired, never, made.extraction.skeleton, {}, {});
-    EXPECT_FALSE(as_it_is.wrapped);
+    EXPECT_FALSE(as_it_is.repaired_again);
     EXPECT_FALSE(as_it_is.certificate.correct());
   }
 }
@@ -59,7 +59,7 @@ TEST(EvaluateRepaired, FindsNoWrapToExcuseAWrongSkeleton) {
   CurveSkeleton tree = extract(repaired.surface, {}, {}).skeleton;
   tree.edges.conservativeResize(tree.edges.rows() - 1, Eigen::NoChange);
   const RepairedEvaluation found = evaluate_repaired(repaired, {}, tree, {}, {});
-  EXPECT_FALSE(found.wrapped);
+  EXPECT_FALSE(found.repaired_again);
   EXPECT_FALSE(found.certificate.topology_correct());
 }
 
@@ -76,7 +76,7 @@ TEST(EvaluateRepaired, AnEdgeFarFromAllComponentsNeedsNoWrap) {
   skeleton.radii.resize(0);
   skeleton.lives.resize(0);
   const RepairedEvaluation found = evaluate_repaired(repaired, {}, skeleton, {}, {});
-  EXPECT_FALSE(found.wrapped);
+  EXPECT_FALSE(found.repaired_again);
   EXPECT_FALSE(found.certificate.correct());
 }
 

@@ -264,7 +264,7 @@ TEST(RealMeshes, ThatLeaveTheirCoarseSurfaceAreMadeAgainFromAllVertices) {
   options.resolution = 6500;
   const RepairedSurface repaired = repair(read_polygons(*file, {}), {}, {});
   const RepairedExtraction found = extract_repaired(repaired, {}, options, {});
-  EXPECT_FALSE(found.wrapped);
+  EXPECT_FALSE(found.repaired_again);
   EXPECT_TRUE(found.extraction.certificate.correct());
   EXPECT_TRUE(is_kept(found.extraction.history, try_all_vertices));
   EXPECT_GT(found.extraction.certificate.tips, 100);

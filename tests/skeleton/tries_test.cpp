@@ -268,7 +268,7 @@ TEST(ThoroughHistory, TellsTheTriesApartInFramesAndCurves) {
   const RepairedSurface repaired = repair(soup_of(ragged().surface), {}, {});
   ShownWatch watch;
   const RepairedExtraction found = extract_repaired(repaired, {}, {}, watch.monitor());
-  ASSERT_TRUE(found.wrapped);
+  ASSERT_TRUE(found.repaired_again);
   const std::vector<Try>& history = found.extraction.history;
   watch.expect_all_in(history);
   EXPECT_GE(watch.numbers().size(), 3U);

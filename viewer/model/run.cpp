@@ -85,8 +85,8 @@ void Run::extract_all(const Monitor& monitor) {
   noting.note = [&result](std::string_view line) { result.notes.emplace_back(line); };
   RepairedExtraction found = extract_repaired(*result.repaired, options_.repair, options_.extract,
                                               noting, memory_->extraction);
-  if (found.wrapped) {
-    result.repaired = std::make_shared<const RepairedSurface>(std::move(*found.wrapped));
+  if (found.repaired_again) {
+    result.repaired = std::make_shared<const RepairedSurface>(std::move(*found.repaired_again));
   }
   result.extraction = std::make_shared<const Extraction>(std::move(found.extraction));
   result.skeleton = std::make_shared<const CurveSkeleton>(
