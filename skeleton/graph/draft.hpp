@@ -40,6 +40,7 @@ class Draft {
   void set_life(int node, double life) { skeleton_.lives[node] = life; }
   /// Precondition: the skeleton has node_of_vertex.
   void hand_vertex(int vertex, int node) { skeleton_.node_of_vertex[vertex] = node; }
+  [[nodiscard]] int node_of_vertex(int vertex) const { return skeleton_.node_of_vertex[vertex]; }
   /// Edges and vertices of `node` go to `heir`, which has the larger life of the two; then it is
   /// gone.
   void dissolve(int node, int heir);

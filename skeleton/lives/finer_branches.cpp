@@ -263,16 +263,18 @@ class FinerBranches {
     return node;
   }
 
-  /// The vertices from the tip to the plane through the rim go to the nearest of the new nodes.
+  /// The vertices from the tip to the plane through the rim go to the nearest of the new nodes, if
+  /// it is nearer than the one that they have: in a ring the plane leaves half of it on that side.
   void hand_over(const TipLife& tip, const std::vector<int>& made) {
     const Vector3d ahead = vertex(tip.vertex) - tip.rim;
     std::vector<int> part{tip.vertex};
     seen_[idx(tip.vertex)] = 1;
     for (std::size_t i = 0; i < part.size(); ++i) {
       const Vector3d at = vertex(part[i]);
-      const auto nearest = std::min_element(made.begin(), made.end(), [&](int a, int b) {
-        return (curve_.position(a) - at).squaredNorm() < (curve_.position(b) - at).squaredNorm();
-      });
+      const auto squared = [&](int node) { return (curve_.position(node) - at).squaredNorm(); };
+      const auto nearest = std::min_element(
+          made.begin(), made.end(), [&](int a, int b) { return squared(a) < squared(b); });
+      if (squared(*nearest) > squared(curve_.node_of_vertex(part[i]))) continue;
       curve_.hand_vertex(part[i], *nearest);
       for (const int next : neighbours_.neighbours(part[i])) {
         if (seen_[idx(next)] != 0 || !((vertex(next) - tip.rim).dot(ahead) > 0)) continue;

@@ -17,6 +17,7 @@
 #include <curveskel/advanced/measures.hpp>
 #include "meshes/shapes.hpp"
 #include "skeleton/lives/finer_branches.hpp"
+#include "tests/volumes.hpp"
 
 namespace curveskel::finer_branches_laws {
 namespace {
@@ -114,6 +115,32 @@ TEST(FinerBranches, HaveNodesRadiiLivesAndVertices) {
 }
 
 /// Bumps too low for the default have branches at the finest level, all of them.
+/// A ring with round bumps on its inner and its outer side.
+Surface bumpy_ring() {
+  const auto field = [](const Eigen::Vector3d& p) {
+    return std::min({volumes::ring(p, 1, 0.35), volumes::ball(p, {0.65, 0, 0.1}, 0.15),
+                     volumes::ball(p, {0, 1.35, 0.1}, 0.15),
+                     volumes::ball(p, {-0.75, -0.8, 0.2}, 0.2)});
+  };
+  return volumes::Volume(field, {1.6, 1.7, 0.6}, 0.07).surface();
+}
+
+// The half of a ring on a bump's side of the plane through the bump's foot went to its branch.
+TEST(FinerBranches, TakeNoVerticesFromNearerNodes) {
+  std::vector<Surface> surfaces{bumpy_ring()};
+  for (const shapes::Shape& shape : subjects()) surfaces.push_back(shape.surface);
+  for (const Surface& surface : surfaces) {
+    const CurveSkeleton plain = at(surface, 0.5).skeleton;
+    const CurveSkeleton fine = at(surface, 1).skeleton;
+    for (Eigen::Index v = 0; v < surface.positions.rows(); ++v) {
+      const auto off = [&](const CurveSkeleton& skeleton) {
+        return (skeleton.nodes.row(skeleton.node_of_vertex[v]) - surface.positions.row(v)).norm();
+      };
+      ASSERT_LE(off(fine), off(plain) + 1e-12) << v;
+    }
+  }
+}
+
 TEST(FinerBranches, ReachEachBump) {
   for (const int bumps : {3, 6, 8}) {
     const shapes::Shape shape = bumpy_ball(bumps, 0.35);
