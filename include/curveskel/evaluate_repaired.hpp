@@ -17,8 +17,9 @@ struct RepairedEvaluation {
 
 /// `evaluate`. If it does not hold and `as_repaired.wrap` is `needed`: components that it fails for
 /// and that cross themselves have no inside to be held against, so the skeleton is held against
-/// their wraps (see `wrap_solid`), for each the narrowest for which it holds; where none does, the
-/// component stays. One that does not cross itself is never wrapped here: it is judged as it is.
+/// what is left of them without their small handles, or against their wraps, as `extract_repaired`
+/// makes them: for each the first for which it holds; where none does, the component stays. One
+/// that does not cross itself is judged as it is.
 /// A piece of the skeleton belongs to the smallest component that holds most of its nodes. Throws
 /// Cancelled on a stop.
 [[nodiscard]] RepairedEvaluation evaluate_repaired(const RepairedSurface& repaired,

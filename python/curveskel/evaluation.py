@@ -13,7 +13,8 @@ def evaluate(mesh, skeleton, *, against=None, threads=0, time_limit=0, progress=
         (m, 2), an object with `vertices` and `edges`, as skeletor's, or a networkx graph whose
         nodes have x, y and z, or pos.
     against: another one, to compare with, as `curveskel evaluate --against`.
-    options: those of repair: components, least_sheet, merge_overlapping, min_size, wrap, wrap_gap.
+    options: those of repair: components, least_handle, least_sheet, merge_overlapping, min_size,
+        wrap, wrap_gap.
 
     With `against` the dict has an entry of that name, a dict: hausdorff_distance and mean_distance
     between the two, over the diagonal of the surface's bounding box; where_both_run has of `this`

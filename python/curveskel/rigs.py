@@ -127,8 +127,9 @@ def rig(mesh, *, skeleton=None, joints=None, keep_rig=False, as_shown=False, thr
         in is rigged as viewers show it, not as it was bound; so it is with joints of its own.
     threads, time_limit, progress: as of `extract`.
     options: the program's, with _ for -: bone_length, components, detail, ends (False for
-        --no-ends), fair, follow, front, ground_root, joint_budget, least_sheet,
-        merge_overlapping, min_size, names, plan, pose, root, softness, up, wrap, wrap_gap.
+        --no-ends), fair, follow, front, ground_root, joint_budget, least_handle,
+        least_sheet, merge_overlapping, min_size, names, plan, pose, root, softness, up, wrap,
+        wrap_gap.
 
     Options that would have no effect are a UsageError. What the program warns of is a UserWarning,
     a certificate that does not hold a CertificateWarning. Raises UsageError, InputError,

@@ -365,9 +365,9 @@ def extract(mesh, *, detail=0.5, threads=0, time_limit=0, progress=None, strict=
     time_limit: seconds, then it is a SolverError; 0 = none.
     progress: a callable (stage, fraction), called in this thread; True = a tqdm bar if there is one.
     strict: a certificate that does not hold is a SolverError, not a CertificateWarning.
-    options: the program's, with _ for -: components, embed, fair, flow, least_sheet,
-        merge_overlapping, min_size, preset, resolution (a number or "full"), solver, surgery, wrap,
-        wrap_gap. For --levels see `Skeleton.levels`.
+    options: the program's, with _ for -: components, embed, fair, flow, least_handle,
+        least_sheet, merge_overlapping, min_size, preset, resolution (a number or "full"), solver,
+        surgery, wrap, wrap_gap. For --levels see `Skeleton.levels`.
 
     Holes are closed and other defects repaired first, see `Skeleton.changes`. Other threads run
     meanwhile, and Ctrl-C stops it. Raises UsageError, InputError, DeviceError or SolverError.

@@ -48,8 +48,8 @@ def contract(mesh, *, threads=0, time_limit=0, progress=None, **options):
     """Where each vertex ends up when the surface collapses, as `curveskel contract` finds it.
 
     mesh, threads, time_limit, progress: as of `extract`.
-    options: the program's, with _ for -: components, flow, iterations, least_sheet, merge_overlapping,
-        min_size, solver, wrap, wrap_gap.
+    options: the program's, with _ for -: components, flow, iterations, least_handle, least_sheet,
+        merge_overlapping, min_size, solver, wrap, wrap_gap.
 
     Returns the vertices (v, 3), in the order given, triangles (f, 3), and a dict of lists with an
     entry for each iteration of each component: component, iteration, area_ratio and volume_ratio

@@ -272,8 +272,8 @@ class FinerBranches {
     for (std::size_t i = 0; i < part.size(); ++i) {
       const Vector3d at = vertex(part[i]);
       const auto squared = [&](int node) { return (curve_.position(node) - at).squaredNorm(); };
-      const auto nearest = std::min_element(
-          made.begin(), made.end(), [&](int a, int b) { return squared(a) < squared(b); });
+      const auto nearest = std::min_element(made.begin(), made.end(),
+                                            [&](int a, int b) { return squared(a) < squared(b); });
       if (squared(*nearest) > squared(curve_.node_of_vertex(part[i]))) continue;
       curve_.hand_vertex(part[i], *nearest);
       for (const int next : neighbours_.neighbours(part[i])) {

@@ -10,6 +10,7 @@
 #include "skeleton/pipeline/failing_components.hpp"
 #include "skeleton/pipeline/try_loop.hpp"
 #include "surface/mesh/crosses_itself.hpp"
+#include "surface/repair/cut_handles.hpp"
 #include "surface/repair/sound_repaired.hpp"
 #include "surface/repair/wrap_components.hpp"
 
@@ -37,6 +38,21 @@ std::optional<WrappedSolid> wrap_that_agrees(const FailingComponent& failing, do
   return std::nullopt;
 }
 
+/// The component without its small handles, the fewest for which its own skeleton holds.
+std::optional<CutSurface> cut_that_agrees(const FailingComponent& failing,
+                                          const CertificateOptions& options,
+                                          const Monitor& monitor) {
+  CutSurface cut;
+  cut.surface = failing.surface;
+  const double extent = bounding_box_diagonal(failing.surface.positions);
+  for (const double length : handle_lengths) {
+    if (failing.genus == 0) break;
+    if (cut_more_handles(cut, length * extent, monitor.stop) == 0) continue;
+    if (evaluate(cut.surface, failing.skeleton, options, monitor).correct()) return cut;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 RepairedEvaluation evaluate_repaired(const RepairedSurface& repaired,
@@ -57,6 +73,7 @@ RepairedEvaluation evaluate_repaired(const RepairedSurface& repaired,
   result.certificate.wrap_followed = repaired.repairs.wrap_followed;
   if (result.certificate.correct() || as_repaired.wrap != Wrapping::needed) return result;
 
+  std::vector<ComponentCut> cuts;
   std::vector<ComponentWrap> wraps;
   const auto owners = component_by_place(skeleton, split_components(surface, counted));
   const auto all_failing =
@@ -66,11 +83,15 @@ RepairedEvaluation evaluate_repaired(const RepairedSurface& repaired,
   const WrapBudget budget = gap > 0 ? WrapBudget() : budget_for_one(all_failing.size());
   for (const FailingComponent& failing : all_failing) {
     if (!crosses_itself(failing.surface)) continue;
-    auto wrap = wrap_that_agrees(failing, gap, budget, options, monitor);
-    if (wrap) wraps.push_back({failing.number, std::move(*wrap)});
+    if (auto cut = cut_that_agrees(failing, options, monitor)) {
+      cuts.push_back({failing.number, std::move(*cut)});
+    } else if (auto wrap = wrap_that_agrees(failing, gap, budget, options, monitor)) {
+      wraps.push_back({failing.number, std::move(*wrap)});
+    }
   }
-  if (wraps.empty()) return result;
-  result.repaired_again = with_wraps(repaired, wraps, monitor);
+  if (cuts.empty() && wraps.empty()) return result;
+  RepairedSurface left = cuts.empty() ? repaired : with_handles_cut(repaired, cuts, monitor);
+  result.repaired_again = wraps.empty() ? std::move(left) : with_wraps(left, wraps, monitor);
   result.certificate = evaluate(result.repaired_again->surface, skeleton, options, monitor);
   result.certificate.wrap_followed = result.repaired_again->repairs.wrap_followed;
   return result;

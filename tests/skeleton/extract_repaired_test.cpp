@@ -1,5 +1,6 @@
 // Laws of what is wrapped because its certificate fails: limbs that noise as thick as they are
 // turns inside out, here and there.
+#include <curveskel/evaluate_repaired.hpp>
 #include <curveskel/extract_repaired.hpp>
 
 #include <gtest/gtest.h>
@@ -139,6 +140,10 @@ TEST(ExtractRepaired, CutsTheHandlesOfNoiseWhereTheCertificateFails) {
   asked.least_handle = 0.1;
   const RepairedSurface cut = repair(soup_of(surface), asked, {});
   EXPECT_TRUE(evaluate(cut.surface, skeleton).correct());
+  const RepairedEvaluation evaluated = evaluate_repaired(repaired, {}, skeleton);
+  ASSERT_TRUE(evaluated.repaired_again);
+  EXPECT_TRUE(evaluated.certificate.correct());
+  EXPECT_EQ(evaluated.repaired_again->repairs.handles_cut, repairs.handles_cut);
   RepairOptions never;
   never.wrap = Wrapping::never;
   EXPECT_FALSE(extract_repaired(repaired, never, options).repaired_again);
