@@ -277,8 +277,9 @@ class AreaBeside {
  public:
   AreaBeside(const Stars& stars, double reach) : stars_(stars), reach_(reach) {}
 
-  /// On the left of the loop; no more of it than exceeds `enough`.
-  [[nodiscard]] double of(const EdgeLoop& loop, double enough) {
+  /// On the left of the loop.
+  [[nodiscard]] bool opens_out(const EdgeLoop& loop, double length) {
+    constexpr double clearly = 2;  // times the area of a tube as thick
     for (const std::int32_t v : loop) distance_[v] = 0;
     for (std::size_t i = 0; i < loop.size(); ++i) {
       const std::int32_t behind = loop[(i + loop.size() - 1) % loop.size()];
@@ -288,10 +289,11 @@ class AreaBeside {
         reach_along(h, 0);
       }
     }
-    while (!queue_.empty() && area_ <= enough) {
+    while (!queue_.empty()) {
       const auto [distance, v] = queue_.top();
       queue_.pop();
       if (distance > distance_.at(v)) continue;
+      if (distance >= length && area_ > clearly * length * distance) return true;
       std::int32_t h = stars_.first(v);
       do {
         take(h / 3);
@@ -299,7 +301,7 @@ class AreaBeside {
         h = stars_.turned(h);
       } while (h != stars_.first(v));
     }
-    return area_;
+    return false;
   }
 
  private:
@@ -358,10 +360,7 @@ std::vector<EdgeLoop> short_loops(const Stars& stars, double longest, const std:
     throw_if_stopped(stop);
     EdgeLoop loop = search.shortest_through(v, longest);
     if (loop.empty()) continue;
-    double length = 0;
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-      length += stars.length(stars.between(loop[i], loop[(i + 1) % loop.size()]));
-    }
+    const double length = length_of(stars, loop);
     found.emplace_back(length, std::move(loop));
   }
   std::sort(found.begin(), found.end());
@@ -371,11 +370,19 @@ std::vector<EdgeLoop> short_loops(const Stars& stars, double longest, const std:
   return loops;
 }
 
+double length_of(const Stars& stars, const EdgeLoop& loop) {
+  double length = 0;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    length += stars.length(stars.between(loop[i], loop[(i + 1) % loop.size()]));
+  }
+  return length;
+}
+
 bool opens_out(const Stars& stars, const EdgeLoop& loop, double reach) {
-  const double tube = reach * reach;
+  const double length = length_of(stars, loop);
   const EdgeLoop other_way(loop.rbegin(), loop.rend());
-  return AreaBeside(stars, reach).of(loop, tube) > tube &&
-         AreaBeside(stars, reach).of(other_way, tube) > tube;
+  return AreaBeside(stars, reach).opens_out(loop, length) &&
+         AreaBeside(stars, reach).opens_out(other_way, length);
 }
 
 }  // namespace curveskel

@@ -58,10 +58,12 @@ class Stars {
 [[nodiscard]] std::vector<EdgeLoop> short_loops(const Stars& stars, double longest,
                                                 const std::stop_token& stop);
 
-/// True if on either side of the loop the surface within the distance `reach` of it has more area
-/// than reach^2, as a tube round which the loop is no longer than `reach` has not: the loop lies
-/// round a short neck, not round a wire or in a deep hole. Distances are along edges and do not
-/// cross the loop. O(m log m) for m vertices within reach.
+[[nodiscard]] double length_of(const Stars& stars, const EdgeLoop& loop);
+
+/// True if on either side of the loop, at some distance d from it between its length l and `reach`,
+/// the surface as near as that has more area than 2 l d, twice that of a tube round which the loop
+/// leads: the loop lies round a short neck, not round a wire or in a deep hole. Distances are along
+/// edges and do not cross the loop. O(m log m) for m vertices within reach.
 [[nodiscard]] bool opens_out(const Stars& stars, const EdgeLoop& loop, double reach);
 
 }  // namespace curveskel

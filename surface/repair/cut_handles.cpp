@@ -155,14 +155,6 @@ class Cutting {
   std::vector<Side> sides_;
 };
 
-double length_of(const EdgeLoop& loop, const Positions& positions) {
-  double sum = 0;
-  for (std::size_t i = 0; i < loop.size(); ++i) {
-    sum += (positions.row(loop[i]) - positions.row(loop[(i + 1) % loop.size()])).norm();
-  }
-  return sum;
-}
-
 /// Rims that a cut went through are none any more.
 void drop_rims(RepairedSurface& repaired, const std::vector<std::int32_t>& on_a_loop) {
   if (on_a_loop.empty() || repaired.rims.empty()) return;
@@ -199,7 +191,7 @@ std::int64_t cut_more_handles(CutSurface& cut, double longest, const std::stop_t
     Cutting cutting(stars);
     for (const EdgeLoop& loop : loops) {
       cutting.cut(loop);
-      cut.longest_loop = std::max(cut.longest_loop, length_of(loop, cut.surface.positions));
+      cut.longest_loop = std::max(cut.longest_loop, length_of(stars, loop));
       cut.on_a_loop.insert(cut.on_a_loop.end(), loop.begin(), loop.end());
     }
     cut.handles_cut += std::ssize(loops);
