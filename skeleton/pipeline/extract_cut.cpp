@@ -138,4 +138,17 @@ Extracted extracted_without_small_handles(const RepairedSurface& repaired,
           std::move(whole.parts), std::move(whole.components)};
 }
 
+std::optional<std::string> hint_at_small_handles(const Surface& surface, int genus,
+                                                 const std::stop_token& stop) {
+  constexpr int many = 8;  // with fewer a look at the skeleton tells
+  if (genus < many) return std::nullopt;
+  const double length = handle_lengths.front();
+  const double diagonal = bounding_box_diagonal(surface.positions);
+  const CutSurface cut = cut_handles(surface, length * diagonal, stop);
+  if (2 * cut.handles_cut <= genus) return std::nullopt;
+  return std::to_string(cut.handles_cut) + " of the " + std::to_string(genus) +
+         " handles are small, with loops of up to " + share_of_extent(cut.longest_loop / diagonal) +
+         " D; if they are noise, --least-handle " + share_of_extent(length) + " cuts them";
+}
+
 }  // namespace curveskel

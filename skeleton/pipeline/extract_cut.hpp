@@ -1,6 +1,10 @@
 // Another try of components whose certificate fails: without their small handles.
 #pragma once
 
+#include <optional>
+#include <stop_token>
+#include <string>
+
 #include <curveskel/repair.hpp>
 #include "skeleton/pipeline/extraction_plans.hpp"
 
@@ -12,5 +16,9 @@ namespace curveskel {
 [[nodiscard]] Extracted extracted_without_small_handles(const RepairedSurface& repaired,
                                                         const ExtractOptions& options,
                                                         const Plan<Extracted>::Room& room);
+
+/// Of a surface with many handles, most of them small, a hint that they may be noise; else nothing.
+[[nodiscard]] std::optional<std::string> hint_at_small_handles(const Surface& surface, int genus,
+                                                               const std::stop_token& stop);
 
 }  // namespace curveskel

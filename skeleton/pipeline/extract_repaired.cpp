@@ -226,6 +226,11 @@ RepairedExtraction extracted(const RepairedSurface& repaired, const RepairOption
   RepairedExtraction best = carry_out_plans(plans, monitor);
   const Repairs& repairs = best.repaired_again ? best.repaired_again->repairs : repaired.repairs;
   best.extraction.certificate.wrap_followed = repairs.wrap_followed;
+  if (as_repaired.least_handle <= 0 && !best.repaired_again) {
+    const int genus = best.extraction.certificate.genus;
+    const auto hint = hint_at_small_handles(repaired.surface, genus, monitor.stop);
+    if (hint) monitor.say(*hint);
+  }
   return best;
 }
 

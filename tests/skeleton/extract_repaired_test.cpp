@@ -18,6 +18,7 @@
 #include <curveskel/read.hpp>
 #include <curveskel/topology.hpp>
 #include "meshes/shapes.hpp"
+#include "skeleton/pipeline/extract_cut.hpp"
 #include "skeleton/pipeline/failing_components.hpp"
 #include "skeleton/pipeline/wrap_losses.hpp"
 #include "skeleton/pipeline/wraps_hold.hpp"
@@ -147,6 +148,25 @@ TEST(ExtractRepaired, CutsTheHandlesOfNoiseWhereTheCertificateFails) {
   RepairOptions never;
   never.wrap = Wrapping::never;
   EXPECT_FALSE(extract_repaired(repaired, never, options).repaired_again);
+}
+
+TEST(ExtractRepaired, HintsAtHandlesIfTheyAreManyAndMostAreSmall) {
+  const auto spade = [](const Eigen::Vector3d& p) {
+    return std::min(volumes::ring(p, 1, 0.35), volumes::rod(p, {1, 0, 0}, {8, 0, 0}, 0.3));
+  };
+  const volumes::Volume noisy(spade, {8.6, 1.7, 0.7}, 0.08, 0.04);
+  const Surface surface = volumes::largest_component(noisy.surface());
+  const int genus = topology(surface).total_genus();
+  ASSERT_GE(genus, 20) << "no test: raise the noise";
+  const auto hint = hint_at_small_handles(surface, genus, {});
+  ASSERT_TRUE(hint.has_value());
+  EXPECT_NE(hint->find(std::to_string(genus - 1) + " of the " + std::to_string(genus)),
+            std::string::npos)
+      << *hint;
+  const Shape sieve = shapes::sieve(4);
+  EXPECT_FALSE(hint_at_small_handles(sieve.surface, sieve.genus, {}).has_value());
+  const Shape few = shapes::torus(3, 1, 24);
+  EXPECT_FALSE(hint_at_small_handles(few.surface, few.genus, {}).has_value());
 }
 
 /// Two sides that cross each other everywhere, and hold no more than that.
