@@ -34,9 +34,9 @@ void add_repair(CLI::App& parser, RepairOptions& options) {
              "sheets that no wrap makes a body of become thin bodies, if their extent is at least "
              "this, of the diagonal of the whole; 0 = none");
   add_number(parser, "--least-handle", options.least_handle, 0.0, 1.0,
-             "smaller handles are cut, as noise leaves them in scans and volumes: those with a "
-             "loop round them and one through them up to this long, of the diagonal of the whole; "
-             "0 = none, unless a certificate fails");
+             "small handles are cut, as noise leaves them in scans and volumes: short ones with a "
+             "loop round them or through them up to this long, of the diagonal of the whole; 0 = "
+             "none, unless a certificate fails; 0.03 is a good first try");
   parser.add_flag("--merge-overlapping", options.merge_overlapping,
                   "components that cross or touch become one body, those inside another are left "
                   "out; what merely comes near stays apart");

@@ -90,9 +90,9 @@ class Volume {
  private:
   [[nodiscard]] double value(int i) const { return values_[static_cast<std::size_t>(i)]; }
   [[nodiscard]] Eigen::Vector3d place(int i) const {
-    const Eigen::Vector3d cell(i % count_[0], i / count_[0] % count_[1],
-                               i / (count_[0] * count_[1]));
-    return origin_ + spacing_ * cell;
+    const int layer = count_[0] * count_[1];
+    const Eigen::Vector3i cell(i % count_[0], i / count_[0] % count_[1], i / layer);
+    return origin_ + spacing_ * cell.cast<double>();
   }
   template <typename Corner>
   [[nodiscard]] Eigen::Vector3d middle(Corner first, Corner last) const {

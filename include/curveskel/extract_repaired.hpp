@@ -20,7 +20,7 @@ struct RepairedExtraction {
 /// too much outside) and `as_repaired.wrap` is `needed`, components that fail are repaired again:
 ///
 /// 1. Of those with handles the small ones are cut (see RepairOptions::least_handle), with loops up
-///    to .03 of the component's extent, or .1, if the certificate of what is left then holds.
+///    to .03 of the component's extent, if the certificate of what is left then holds.
 /// 2. If it still fails, those are wrapped (see `Wrapping`) that cross themselves and have a wrap
 ///    whose certificate holds on its own and whose curve loses nothing of the component: neither
 ///    runs outside of it nor leaves limbs out. Each wrap has a budget of vertices.
@@ -28,7 +28,8 @@ struct RepairedExtraction {
 /// Either is the result if what is extracted has a certificate that holds, for the whole or at
 /// least for each of these components beside others that nothing helps, and is no worse than that
 /// of the surface given. Else the surface given stays, with its certificate that fails. Times and
-/// history are of all tries; a note says what was done. Throws Error(Fault::solver) when a
+/// history are of all tries; a note says what was done, and where a surface keeps eight handles or more of which most are
+/// small. Throws Error(Fault::solver) when a
 /// component cannot be contracted, Cancelled on a stop.
 [[nodiscard]] RepairedExtraction extract_repaired(const RepairedSurface& repaired,
                                                   const RepairOptions& as_repaired = {},

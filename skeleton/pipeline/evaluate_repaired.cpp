@@ -38,19 +38,16 @@ std::optional<WrappedSolid> wrap_that_agrees(const FailingComponent& failing, do
   return std::nullopt;
 }
 
-/// The component without its small handles, the fewest for which its own skeleton holds.
+/// The component without its small handles, if there are any and its own skeleton holds then.
 std::optional<CutSurface> cut_that_agrees(const FailingComponent& failing,
                                           const CertificateOptions& options,
                                           const Monitor& monitor) {
-  CutSurface cut;
-  cut.surface = failing.surface;
+  if (failing.genus == 0) return std::nullopt;
   const double extent = bounding_box_diagonal(failing.surface.positions);
-  for (const double length : handle_lengths) {
-    if (failing.genus == 0) break;
-    if (cut_more_handles(cut, length * extent, monitor.stop) == 0) continue;
-    if (evaluate(cut.surface, failing.skeleton, options, monitor).correct()) return cut;
-  }
-  return std::nullopt;
+  CutSurface cut = cut_handles(failing.surface, small_handle * extent, monitor.stop);
+  if (cut.handles_cut == 0) return std::nullopt;
+  if (!evaluate(cut.surface, failing.skeleton, options, monitor).correct()) return std::nullopt;
+  return cut;
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -27,37 +28,28 @@ std::string share_of_extent(double length) {
 struct CutAttempt {
   CutSurface cut;
   Assembled made;
-  double longest = 0;  // of the loops that were looked for
 };
 
-/// `cut` has what was cut so far, along shorter loops.
-Plan<CutAttempt> cut_plan(const FailingComponent& failing, double length,
-                          const ExtractOptions& options, CutSurface& cut) {
-  const auto why = [length](const auto& so_far) -> std::optional<std::string> {
-    if (so_far.best) return std::nullopt;
-    return "the component's certificate failed; handles with loops of up to " +
-           share_of_extent(length) + " of its extent are cut";
-  };
-  const auto make = [&failing, length, &options, &cut](const Plan<CutAttempt>::Room& room) {
-    const double longest = length * bounding_box_diagonal(failing.surface.positions);
-    if (cut_more_handles(cut, longest, room.monitor.stop) == 0) {
-      throw GaveUp("the component has no more handles as small");
-    }
-    Assembled made =
-        extract_once(cut.surface, options, room.monitor, nullptr, room.log, room.number);
-    return CutAttempt{cut, std::move(made), longest};
-  };
-  return {try_handles_cut, why, make};
+CutAttempt attempt(const FailingComponent& failing, const ExtractOptions& options,
+                   const Plan<CutAttempt>::Room& room) {
+  const double extent = bounding_box_diagonal(failing.surface.positions);
+  CutSurface cut = cut_handles(failing.surface, small_handle * extent, room.monitor.stop);
+  if (cut.handles_cut == 0) throw GaveUp("no handle of the component is small");
+  Assembled made = extract_once(cut.surface, options, room.monitor, nullptr, room.log, room.number);
+  return {std::move(cut), std::move(made)};
 }
 
-std::optional<CutAttempt> least_cut(const FailingComponent& failing, const ExtractOptions& options,
-                                    const Plan<Extracted>::Room& room) {
-  CutSurface cut;
-  cut.surface = failing.surface;
-  std::vector<Plan<CutAttempt>> plans;
-  for (const double length : handle_lengths) {
-    plans.push_back(cut_plan(failing, length, options, cut));
-  }
+/// If its certificate holds.
+std::optional<CutAttempt> without_small_handles(const FailingComponent& failing,
+                                                const ExtractOptions& options,
+                                                const Plan<Extracted>::Room& room) {
+  const auto why = [](const auto&) -> std::optional<std::string> {
+    return "the component's certificate failed; handles with loops of up to " +
+           share_of_extent(small_handle) + " of its extent are cut";
+  };
+  const std::vector<Plan<CutAttempt>> plans{
+      {try_handles_cut, why,
+       [&](const Plan<CutAttempt>::Room& inner) { return attempt(failing, options, inner); }}};
   const auto certificate = [](const CutAttempt& one) { return one.made.extraction.certificate; };
   return carry_out(
              plans, {failing.number, room.number},
@@ -114,23 +106,23 @@ Extracted extracted_without_small_handles(const RepairedSurface& repaired,
   for (const FailingComponent& one : all_failing) {
     if (one.genus == 0) continue;
     const double share = double(one.surface.positions.rows()) / vertices;
-    auto left = least_cut(one, options_for_one(options, share), room);
+    auto left = without_small_handles(one, options_for_one(options, share), room);
     if (!left) continue;
     standing[idx(one.number)].reset();
     if (is_single) alone = std::move(left->made);
-    longest = std::max(longest, left->longest);
+    longest = std::max(longest, small_handle * bounding_box_diagonal(one.surface.positions));
     cuts.push_back({one.number, std::move(left->cut)});
   }
   if (cuts.empty()) throw GaveUp("without small handles no certificate holds either");
   RepairedSurface left = with_handles_cut(repaired, cuts, silent);
   Assembled whole =
       alone ? std::move(*alone) : extracted_beside(left, cuts, std::move(standing), options, room);
-  const Repairs& repairs = left.repairs;
+  const std::int64_t count = left.repairs.handles_cut;
   const std::string note =
       "the certificate failed (" + failures(failed.found.extraction.certificate, judging) +
-      "), so " + std::to_string(repairs.handles_cut) +
-      " small handles were cut, and the skeleton "
-      "extracted again; to evaluate it, use --least-handle " +
+      "), so " + std::to_string(count) +
+      (count == 1 ? " small handle was" : " small handles were") +
+      " cut, and the skeleton extracted again; to evaluate it, use --least-handle " +
       share_of_extent(longest / bounding_box_diagonal(repaired.surface.positions));
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
   whole.extraction.times = {{"second try", taken.count()}};
@@ -142,7 +134,7 @@ std::optional<std::string> hint_at_small_handles(const Surface& surface, int gen
                                                  const std::stop_token& stop) {
   constexpr int many = 8;  // with fewer a look at the skeleton tells
   if (genus < many) return std::nullopt;
-  const double length = handle_lengths.front();
+  const double length = small_handle;
   const double diagonal = bounding_box_diagonal(surface.positions);
   const CutSurface cut = cut_handles(surface, length * diagonal, stop);
   if (2 * cut.handles_cut <= genus) return std::nullopt;

@@ -10,12 +10,12 @@
 
 namespace curveskel {
 
-/// Of each component that fails and has handles, the small ones are cut (see `cut_handles`), up to
-/// the least of `handle_lengths` with which the certificate of what is left holds, and the whole is
-/// extracted with these in their place. Gives up where there are none.
+/// Of each component that fails and has handles, the small ones are cut (see `small_handle`). Those
+/// whose certificate holds then stand in their places while the whole is extracted. Gives up where
+/// there are none.
 [[nodiscard]] Extracted extracted_without_small_handles(const RepairedSurface& repaired,
                                                         const ExtractOptions& options,
-                                                        const Plan<Extracted>::Room& room);
+                                                        const Plan<Extracted>::Room& given);
 
 /// Of a surface with many handles, most of them small, a hint that they may be noise; else nothing.
 [[nodiscard]] std::optional<std::string> hint_at_small_handles(const Surface& surface, int genus,

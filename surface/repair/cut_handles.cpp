@@ -175,12 +175,6 @@ void note(Repairs& repairs, const CutSurface& cut, double diagonal) {
 CutSurface cut_handles(const Surface& surface, double longest, const std::stop_token& stop) {
   CutSurface cut;
   cut.surface = surface;
-  cut_more_handles(cut, longest, stop);
-  return cut;
-}
-
-std::int64_t cut_more_handles(CutSurface& cut, double longest, const std::stop_token& stop) {
-  const std::int64_t before = cut.handles_cut;
   for (;;) {
     throw_if_stopped(stop);
     const HalfEdges pairs = pair_half_edges(
@@ -200,7 +194,7 @@ std::int64_t cut_more_handles(CutSurface& cut, double longest, const std::stop_t
   std::vector<std::int32_t>& moved = cut.on_a_loop;
   std::sort(moved.begin(), moved.end());
   moved.erase(std::unique(moved.begin(), moved.end()), moved.end());
-  return cut.handles_cut - before;
+  return cut;
 }
 
 void cut_small_handles(RepairedSurface& repaired, double least_handle,

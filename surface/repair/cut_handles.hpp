@@ -1,7 +1,6 @@
 // Handles too small to be part of the shape, as scanners and volumes leave them by the dozen.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <stop_token>
 #include <vector>
@@ -30,12 +29,10 @@ struct CutSurface {
 [[nodiscard]] CutSurface cut_handles(const Surface& surface, double longest,
                                      const std::stop_token& stop = {});
 
-/// The same with what earlier cuts left; returns how many handles were cut now.
-std::int64_t cut_more_handles(CutSurface& cut, double longest, const std::stop_token& stop);
-
-/// Lengths of loops, of a component's extent, up to which handles are cut where its certificate
-/// fails. From short to long, so that no more is lost than need be.
-inline constexpr std::array handle_lengths{0.03, 0.1};
+/// The length of loops, of a component's extent, up to which handles are cut where its certificate
+/// fails: holes of a hundredth of the extent, as the narrowest wrap closes them. Bars of railings
+/// have loops of .05.
+inline constexpr double small_handle = 0.03;
 
 /// A component, by its number in `topology`, and what is left of it.
 struct ComponentCut {

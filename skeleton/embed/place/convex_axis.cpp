@@ -67,17 +67,20 @@ bool behind_all_triangles(const std::vector<Point>& corners, const Surface& surf
   return true;
 }
 
-/// True if no point between the two is farther out than `deepest`. The distance to the surface says
-/// how long the next step may be; along a face it is twice `deepest` or a hundredth of the way, as
-/// other chords cross a gap that this one steps over.
+/// True if no point between the two is farther out than `deepest`. From a point inside the way leads
+/// on to the next triangle at once; outside and along faces steps are twice `deepest` long, or a
+/// hundredth of the way, as other chords cross a gap that this one steps over.
 bool stays_inside(const SurfaceTree& tree, const Point& from, const Point& to, double deepest) {
   const double length = (to - from).norm();
+  const Point ahead = (to - from) / length;
   const double least_step = std::max(2 * deepest, length / 100);
   double along = 0;
   while (along < length) {
-    const double depth = tree.inscribed_radius(from + along / length * (to - from));
+    const Point here = from + along * ahead;
+    const double depth = tree.inscribed_radius(here);
     if (depth < -deepest) return false;
-    along += std::max(depth, least_step);
+    const double seen = depth > 0 ? tree.ray(here, ahead, length - along).distance : 0;
+    along += std::max({depth, seen, least_step});
   }
   return true;
 }
