@@ -28,9 +28,9 @@ struct RepairedExtraction {
 /// Either is the result if what is extracted has a certificate that holds, for the whole or at
 /// least for each of these components beside others that nothing helps, and is no worse than that
 /// of the surface given. Else the surface given stays, with its certificate that fails. Times and
-/// history are of all tries; a note says what was done, and where a surface keeps eight handles or more of which most are
-/// small. Throws Error(Fault::solver) when a
-/// component cannot be contracted, Cancelled on a stop.
+/// history are of all tries; a note says what was done, and where a surface keeps eight handles or
+/// more of which most are small. Throws Error(Fault::solver) when a component cannot be contracted,
+/// Cancelled on a stop.
 [[nodiscard]] RepairedExtraction extract_repaired(const RepairedSurface& repaired,
                                                   const RepairOptions& as_repaired = {},
                                                   const ExtractOptions& options = {},

@@ -50,9 +50,9 @@ struct RepairOptions {
   /// bodies, if their extent is at least this, of D: wings and ears of one layer of triangles. 0 =
   /// all sheets are left out.
   double least_sheet = 0;
-  /// Short handles with a loop no longer than this, of D, that does not part the surface are cut: of
-  /// scans and volumes whose noise has handles. Wires and deep holes are long, and stay. 0 = none
-  /// are cut, unless a certificate fails (see `extract_repaired`).
+  /// Short handles with a loop no longer than this, of D, that does not part the surface are cut:
+  /// of scans and volumes whose noise has handles. Wires and deep holes are long, and stay. 0 =
+  /// none are cut, unless a certificate fails (see `extract_repaired`).
   double least_handle = 0;
 
   [[nodiscard]] bool operator==(const RepairOptions&) const = default;

@@ -67,9 +67,9 @@ bool behind_all_triangles(const std::vector<Point>& corners, const Surface& surf
   return true;
 }
 
-/// True if no point between the two is farther out than `deepest`. From a point inside the way leads
-/// on to the next triangle at once; outside and along faces steps are twice `deepest` long, or a
-/// hundredth of the way, as other chords cross a gap that this one steps over.
+/// True if no point between the two is farther out than `deepest`. From a point inside the way
+/// leads on to the next triangle at once; outside and along faces steps are twice `deepest` long,
+/// or a hundredth of the way, as other chords cross a gap that this one steps over.
 bool stays_inside(const SurfaceTree& tree, const Point& from, const Point& to, double deepest) {
   const double length = (to - from).norm();
   const Point ahead = (to - from) / length;
