@@ -282,6 +282,22 @@ class Repair(CommandLineTest):
         self.assertEqual(result.code, 0, result.err)
         self.assertIn("1 open or flat part given a second side", result.err + result.out.decode())
 
+    def test_handles_of_noise_are_named_and_cut_if_asked(self):
+        neuron = MESHES / "free" / "neuron-722817260-18k.ply.gz"
+        plain = run("extract", neuron, "-o", "x.obj", cwd=self.folder)
+        self.assertEqual(plain.code, 0, plain.err)
+        self.assertRegex(plain.out.decode(), r"15 of the 15 handles are small.*--least-handle 0\.03")
+        result = run("extract", neuron, "--least-handle", "0.03", "-o", "y.obj", "--report",
+                     "r.json", cwd=self.folder)
+        self.assertEqual(result.code, 0, result.err)
+        self.assertIn("15 small handles cut", result.out.decode())
+        self.assertNotIn("--least-handle", result.out.decode())
+        report = json.loads((self.folder / "r.json").read_text())
+        self.assertEqual(report["surface"]["genus"], 0)
+        self.assertEqual(report["repairs"]["handles_cut"], 15)
+        self.assertLess(report["repairs"]["longest_handle_loop"], 0.03)
+        self.assertEqual(report["parameters"]["repair"]["least_handle"], 0.03)
+
 
 class StandardInput(CommandLineTest):
     """Through a pipe, which can be read once and has no name."""
