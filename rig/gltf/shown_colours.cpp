@@ -24,6 +24,7 @@ void show_colours(DressedMesh& mesh, const std::vector<bool>& is_pictured) {
   const std::vector<ColourRow> given = std::exchange(mesh.colours, {});
   for (DressedPart& part : mesh.parts) {
     if (part.colour_sets.empty()) continue;
+    // At the front; GCC 12 warns of a null pointer in std::vector's insert here.
     part.colour_sets.emplace_back(shown_colours);
     std::rotate(part.colour_sets.begin(), part.colour_sets.end() - 1, part.colour_sets.end());
     part.colour_sets.resize(std::min(part.colour_sets.size(), most_sets));

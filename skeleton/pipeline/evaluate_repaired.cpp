@@ -43,8 +43,7 @@ std::optional<CutSurface> cut_that_agrees(const FailingComponent& failing,
                                           const CertificateOptions& options,
                                           const Monitor& monitor) {
   if (failing.genus == 0) return std::nullopt;
-  const double extent = bounding_box_diagonal(failing.surface.positions);
-  CutSurface cut = cut_handles(failing.surface, small_handle * extent, monitor.stop);
+  CutSurface cut = without_small_handles(failing.surface, monitor.stop);
   if (cut.handles_cut == 0) return std::nullopt;
   if (!evaluate(cut.surface, failing.skeleton, options, monitor).correct()) return std::nullopt;
   return cut;

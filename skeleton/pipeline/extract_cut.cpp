@@ -24,7 +24,7 @@ std::string share_of_extent(double length) {
   return words.str();
 }
 
-/// What is left of a component, and what is extracted from it.
+/// A component without its small handles, and all that is extracted from it.
 struct CutAttempt {
   CutSurface cut;
   Assembled made;
@@ -32,17 +32,16 @@ struct CutAttempt {
 
 CutAttempt attempt(const FailingComponent& failing, const ExtractOptions& options,
                    const Plan<CutAttempt>::Room& room) {
-  const double extent = bounding_box_diagonal(failing.surface.positions);
-  CutSurface cut = cut_handles(failing.surface, small_handle * extent, room.monitor.stop);
+  CutSurface cut = without_small_handles(failing.surface, room.monitor.stop);
   if (cut.handles_cut == 0) throw GaveUp("no handle of the component is small");
   Assembled made = extract_once(cut.surface, options, room.monitor, nullptr, room.log, room.number);
   return {std::move(cut), std::move(made)};
 }
 
 /// If its certificate holds.
-std::optional<CutAttempt> without_small_handles(const FailingComponent& failing,
-                                                const ExtractOptions& options,
-                                                const Plan<Extracted>::Room& room) {
+std::optional<CutAttempt> cut_that_holds(const FailingComponent& failing,
+                                         const ExtractOptions& options,
+                                         const Plan<Extracted>::Room& room) {
   const auto why = [](const auto&) -> std::optional<std::string> {
     return "the component's certificate failed; handles with loops of up to " +
            share_of_extent(small_handle) + " of its extent are cut";
@@ -106,7 +105,7 @@ Extracted extracted_without_small_handles(const RepairedSurface& repaired,
   for (const FailingComponent& one : all_failing) {
     if (one.genus == 0) continue;
     const double share = double(one.surface.positions.rows()) / vertices;
-    auto left = without_small_handles(one, options_for_one(options, share), room);
+    auto left = cut_that_holds(one, options_for_one(options, share), room);
     if (!left) continue;
     standing[idx(one.number)].reset();
     if (is_single) alone = std::move(left->made);
@@ -134,13 +133,12 @@ std::optional<std::string> hint_at_small_handles(const Surface& surface, int gen
                                                  const std::stop_token& stop) {
   constexpr int many = 8;  // with fewer a look at the skeleton tells
   if (genus < many) return std::nullopt;
-  const double length = small_handle;
+  const CutSurface cut = without_small_handles(surface, stop);
   const double diagonal = bounding_box_diagonal(surface.positions);
-  const CutSurface cut = cut_handles(surface, length * diagonal, stop);
   if (2 * cut.handles_cut <= genus) return std::nullopt;
   return std::to_string(cut.handles_cut) + " of the " + std::to_string(genus) +
          " handles are small, with loops of up to " + share_of_extent(cut.longest_loop / diagonal) +
-         " D; if they are noise, --least-handle " + share_of_extent(length) + " cuts them";
+         " D; if they are noise, --least-handle " + share_of_extent(small_handle) + " cuts them";
 }
 
 }  // namespace curveskel

@@ -17,7 +17,7 @@
 #include "skeleton/pipeline/extract_cut.hpp"
 #include "skeleton/pipeline/extraction_plans.hpp"
 #include "skeleton/pipeline/failing_components.hpp"
-#include "skeleton/pipeline/limb_losses.hpp"
+#include "skeleton/pipeline/wrap_losses.hpp"
 #include "skeleton/pipeline/wraps_hold.hpp"
 #include "surface/mesh/crosses_itself.hpp"
 #include "surface/repair/sound_repaired.hpp"

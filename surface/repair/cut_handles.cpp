@@ -197,6 +197,10 @@ CutSurface cut_handles(const Surface& surface, double longest, const std::stop_t
   return cut;
 }
 
+CutSurface without_small_handles(const Surface& component, const std::stop_token& stop) {
+  return cut_handles(component, small_handle * bounding_box_diagonal(component.positions), stop);
+}
+
 void cut_small_handles(RepairedSurface& repaired, double least_handle,
                        const std::stop_token& stop) {
   if (least_handle <= 0) return;

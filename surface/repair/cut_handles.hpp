@@ -34,6 +34,10 @@ struct CutSurface {
 /// have loops of .05.
 inline constexpr double small_handle = 0.03;
 
+/// `cut_handles` up to `small_handle` of the extent.
+[[nodiscard]] CutSurface without_small_handles(const Surface& component,
+                                               const std::stop_token& stop);
+
 /// A component, by its number in `topology`, and what is left of it.
 struct ComponentCut {
   int component = 0;

@@ -20,7 +20,7 @@
 #include "meshes/shapes.hpp"
 #include "skeleton/pipeline/extract_cut.hpp"
 #include "skeleton/pipeline/failing_components.hpp"
-#include "skeleton/pipeline/limb_losses.hpp"
+#include "skeleton/pipeline/wrap_losses.hpp"
 #include "skeleton/pipeline/wraps_hold.hpp"
 #include "tests/real_surfaces.hpp"
 #include "tests/soups.hpp"

@@ -24,7 +24,7 @@ using volumes::Volume;
 double diagonal_of(const Surface& surface) { return bounding_box_diagonal(surface.positions); }
 int genus_of(const Surface& surface) { return topology(surface).total_genus(); }
 
-/// What is left of a surface, and of its genus.
+/// The genus that cuts along loops up to this share of D leave a surface.
 int genus_without(const Surface& surface, double longest) {
   return genus_of(cut_handles(surface, longest * diagonal_of(surface)).surface);
 }

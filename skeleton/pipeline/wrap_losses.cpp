@@ -1,4 +1,4 @@
-#include "skeleton/pipeline/limb_losses.hpp"
+#include "skeleton/pipeline/wrap_losses.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
