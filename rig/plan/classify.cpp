@@ -18,14 +18,16 @@ using Eigen::Vector3d;
 
 // Shares of the body's height or size; means over artists' rigs lie well within.
 struct LegLimits {
-  double shortest;  ///< of the size
-  double aside;     ///< of its length, that the tip lies beside the root at most
+  double shortest;        ///< of the size
+  double aside;           ///< of its length, that the tip lies beside the root at most
+  double off_ground = 0;  ///< of the size: a low body's height is no measure
 };
 constexpr LegLimits upright_legs{0.1, 0.45};
-constexpr LegLimits sprawling_legs{0.05, 0.8};
+constexpr LegLimits sprawling_legs{0.05, 0.8, 0.02};
 
-bool reaches_ground(const CurveTree& tree, const LimbPair& pair) {
-  return pair.lowest < tree.ground + near_ground * tree.height;
+bool reaches_ground(const CurveTree& tree, const LimbPair& pair, const LegLimits& limits) {
+  const double off = std::max(near_ground * tree.height, limits.off_ground * tree.size);
+  return pair.lowest < tree.ground + off;
 }
 
 bool is_leg(const CurveTree& tree, const LimbPair& pair, const LegLimits& limits = upright_legs) {
@@ -33,8 +35,8 @@ bool is_leg(const CurveTree& tree, const LimbPair& pair, const LegLimits& limits
   const Vector3d& tip = tree.nodes[idx(pair.ways.front().path.back())];
   const bool goes_down = tip.y() < root.y() - 0.1 * tree.height;
   const bool mostly_down = std::abs(tip.x() - root.x()) < limits.aside * pair.length;
-  return reaches_ground(tree, pair) && pair.length > limits.shortest * tree.size && goes_down &&
-         mostly_down;
+  return reaches_ground(tree, pair, limits) && pair.length > limits.shortest * tree.size &&
+         goes_down && mostly_down;
 }
 
 std::vector<int> legs_within(const CurveTree& tree, const Limbs& limbs, const LegLimits& limits) {
@@ -90,7 +92,7 @@ bool has_other_feet(const CurveTree& tree, const Limbs& limbs, const PlanFound& 
     const LimbPair& pair = limbs.pairs[idx(k)];
     const bool is_known =
         k == found.arms || std::find(found.legs.begin(), found.legs.end(), k) != found.legs.end();
-    if (!is_known && 2 * pair.length > leg && reaches_ground(tree, pair)) return true;
+    if (!is_known && 2 * pair.length > leg && reaches_ground(tree, pair, upright_legs)) return true;
   }
   return false;
 }
@@ -114,9 +116,10 @@ int find_arms(const CurveTree& tree, const Limbs& limbs, int leg) {
 }
 
 struct Posture {
-  double lean = 0;  // degrees of the trunk from upright
-  double back = 0;  // of the size, that the trunk reaches behind the legs
-  double tail = 0;  // the same but for the trunk's way up to the arms, and what lies beyond
+  double lean = 0;         // degrees of the trunk from upright
+  double back = 0;         // of the size, that the trunk reaches behind the legs
+  double tail = 0;         // the same but for the trunk's way up to the arms, and what lies beyond
+  bool is_forked = false;  // it goes up ahead of the legs, and not down behind them, as a hen's
 };
 
 /// Up to the arms; where these begin in the ball of the hips, in which the curve may have one
@@ -135,6 +138,7 @@ int top_of_trunk(const CurveTree& tree, const Limbs& limbs, int root, int arms) 
 }
 
 Posture posture_of(const CurveTree& tree, const Limbs& limbs, int leg, int arms) {
+  constexpr double clearly = 0.1;
   const int root = limbs.pairs[idx(leg)].root;
   const Vector3d& hips = tree.nodes[idx(root)];
   const int top = top_of_trunk(tree, limbs, root, arms);
@@ -145,16 +149,23 @@ Posture posture_of(const CurveTree& tree, const Limbs& limbs, int leg, int arms)
     for (const int node : part_of(tree, top, seen)) goes_up[idx(node)] = 1;
   }
   double rearmost = hips.z();
+  bool rises_ahead = false;
+  bool rises_behind = false;
   double rearmost_of_tail = hips.z();
   for (const int node : limbs.trunk) {
     const double z = tree.nodes[idx(node)].z();
     rearmost = std::min(rearmost, z);
+    const double above = tree.nodes[idx(node)].y() - hips.y();
+    const double ahead = z - hips.z();
+    rises_ahead = rises_ahead || std::min(above, ahead) > clearly * tree.size;
+    rises_behind = rises_behind || (above > 0 && -ahead > clearly * tree.size);
     if (goes_up[idx(node)] == 0) rearmost_of_tail = std::min(rearmost_of_tail, z);
   }
   const Vector3d trunk = tree.nodes[idx(top)] - hips;
   const double length = std::max(trunk.norm(), 1e-9 * tree.size);
   return {std::acos(std::clamp(trunk.y() / length, -1.0, 1.0)) * 180 / std::numbers::pi,
-          (hips.z() - rearmost) / tree.size, (hips.z() - rearmost_of_tail) / tree.size};
+          (hips.z() - rearmost) / tree.size, (hips.z() - rearmost_of_tail) / tree.size,
+          rises_ahead && rises_behind};
 }
 
 std::string rounded(double value) { return std::to_string(std::lround(value)); }
@@ -194,7 +205,7 @@ std::string why_no_human(const CurveTree& tree, const Limbs& limbs, const PlanFo
   return has_shoulders(tree, limbs, found.arms) ? "" : "nothing rises above the upper limbs; ";
 }
 
-void name_biped(const CurveTree& tree, const Limbs& limbs, PlanFound& found) {
+void name_biped(const CurveTree& tree, const Limbs& limbs, bool in_pose, PlanFound& found) {
   const int leg = found.legs.front();
   const Posture posture = posture_of(tree, limbs, leg, found.arms);
   found.lean = posture.lean;
@@ -214,7 +225,8 @@ void name_biped(const CurveTree& tree, const Limbs& limbs, PlanFound& found) {
   } else if (found.arms >= 0 && arm_length > 1.3 * leg_length && posture.back < 0.6) {
     found.plan = BodyKind::bird;
     found.reason = "one pair of legs, wings longer than these; " + leans;
-  } else if (found.arms >= 0 || (posture.back > 0.1 && posture.lean >= upright)) {
+  } else if (found.arms >= 0 ||
+             (posture.back > 0.1 && (posture.lean >= upright || (posture.is_forked && !in_pose)))) {
     found.plan = BodyKind::tailed_biped;
     found.reason = "one pair of legs; " + leans;
   } else {
@@ -228,7 +240,7 @@ std::optional<PlanFound> straddling_human(const CurveTree& tree, const Limbs& li
   found.legs = legs_within(tree, limbs, sprawling_legs);
   if (found.legs.size() != 1) return std::nullopt;
   found.arms = find_arms(tree, limbs, found.legs.front());
-  name_biped(tree, limbs, found);
+  name_biped(tree, limbs, false, found);
   if (found.plan != BodyKind::humanoid) return std::nullopt;
   found.is_astride = true;
   return found;
@@ -285,7 +297,7 @@ PlanFound classify(const CurveTree& tree, const Limbs& limbs, BodyKind wanted, S
     found.reason = "two pairs of limbs reach the ground";
   } else {
     found.arms = find_arms(tree, limbs, found.legs.front());
-    name_biped(tree, limbs, found);
+    name_biped(tree, limbs, in_pose, found);
   }
   if (in_pose && has_other_feet(tree, limbs, found)) {
     found.plan = BodyKind::other;

@@ -20,10 +20,19 @@ constexpr double in_plane = 0.006;
 constexpr double nearly_in_plane = 0.015;
 constexpr double alike = 0.06;  // so near is a mirror image
 
+int thickest_of(const CurveTree& tree) {
+  const auto most = std::max_element(tree.radii.begin(), tree.radii.end());
+  return static_cast<int>(most - tree.radii.begin());
+}
+
 class PairFinder {
  public:
   PairFinder(const CurveTree& tree, Images images)
-      : tree_(tree), images_(images), tips_(tips_of(tree)), from_first_(ways_from(tree, 0)) {}
+      : tree_(tree),
+        images_(images),
+        tips_(tips_of(tree)),
+        from_first_(ways_from(tree, 0)),
+        thickest_(thickest_of(tree)) {}
 
   TipPairs find() {
     pair_tips();
@@ -50,10 +59,30 @@ class PairFinder {
     if (images_ == Images::within_limbs) pair_with_nodes(taken);
     for (const int tip : tips_) {
       const double aside = std::abs(tree_.aside(tip)) / tree_.size;
-      if (aside <= in_plane || (aside <= nearly_in_plane && taken[idx(tip)] == 0)) {
-        found_.ends.push_back(tip);
-      }
+      const double in_the_middle = taken[idx(tip)] == 0 ? nearly_in_plane : in_plane;
+      if (aside <= in_the_middle && !leaves_plane(tip)) found_.ends.push_back(tip);
     }
+  }
+
+  /// How far aside, at most, its branch forks on the way to the thickest place.
+  [[nodiscard]] double fork_aside(int tip) const {
+    double most = 0;
+    for (const int node : from_first_.between(tip, thickest_)) {
+      const bool is_fork = tree_.neighbours[idx(node)].size() > 2;
+      if (is_fork && std::abs(tree_.aside(node)) > std::abs(most)) most = tree_.aside(node);
+    }
+    return most;
+  }
+
+  /// True of a tip in the plane whose branch comes from one side: inner toes that meet there.
+  [[nodiscard]] bool leaves_plane(int tip) const {
+    return std::abs(fork_aside(tip)) > alike * tree_.size;
+  }
+
+  /// Above 0 on the left; 0 in the plane.
+  [[nodiscard]] double side_of(int tip) const {
+    if (std::abs(tree_.aside(tip)) > in_plane * tree_.size) return tree_.aside(tip);
+    return leaves_plane(tip) ? fork_aside(tip) : 0;
   }
 
   /// Left tips, and right ones whose images are near them: those in the neighbouring cells.
@@ -69,13 +98,13 @@ class PairFinder {
     };
     std::map<Cell, std::vector<std::pair<int, Vector3d>>> images;
     for (const int right : tips_) {
-      if (tree_.aside(right) >= -in_plane * tree_.size) continue;
+      if (side_of(right) >= 0) continue;
       Vector3d image = tree_.nodes[idx(right)];
       image.x() = 2 * tree_.middle - image.x();
       images[cell_of(image)].emplace_back(right, image);
     }
     for (const int left : tips_) {
-      if (tree_.aside(left) <= in_plane * tree_.size) continue;
+      if (side_of(left) <= 0) continue;
       const Cell own = cell_of(tree_.nodes[idx(left)]);
       for (int k = 0; k < 27; ++k) {
         const auto found =
@@ -151,6 +180,7 @@ class PairFinder {
   Images images_;
   std::vector<int> tips_;
   Ways from_first_;  // node, to all
+  int thickest_;
   TipPairs found_;
 };
 
@@ -173,8 +203,7 @@ class LimbFinder {
   void find_trunk() {
     limbs_.is_trunk.assign(tree_.nodes.size(), 0);
     if (ends_.empty()) {
-      ends_.push_back(static_cast<int>(std::max_element(tree_.radii.begin(), tree_.radii.end()) -
-                                       tree_.radii.begin()));
+      ends_.push_back(thickest_of(tree_));
     }
     // In a tree the ways between all ends are those from one of them to the others.
     from_end_ = ways_from(tree_, ends_.front());

@@ -55,8 +55,8 @@ TEST(FindPlan, AChairsBackAndALadderAreNoHumans) {
   EXPECT_NE(plan.plan, BodyKind::humanoid) << plan.reason;
 }
 
-/// Low, long, on short legs that stand out to the sides.
-RigSubject lizard() {
+/// Low, long, on short legs that stand out to the sides; the front ones end this high.
+RigSubject lizard(double front_feet = 0.3) {
   BodyCurve figure;
   const int rump = figure.add({0, 1.6, -3}, 0.8);
   const int withers = figure.add({0, 1.6, 4}, 0.8, rump);
@@ -64,7 +64,7 @@ RigSubject lizard() {
   figure.add({0, 1, -11}, 0.3, rump);
   for (const int root : {rump, withers}) {
     const double z = figure.places[idx(root)].z();
-    figure.add_pair(root, {{1.4, 1.5, z}, {2.1, 0.3, z}}, 0.25);
+    figure.add_pair(root, {{1.4, 1.5, z}, {1.8, root == rump ? 0.3 : front_feet, z}}, 0.25);
   }
   return subject_of("lizard", figure);
 }
@@ -74,6 +74,58 @@ TEST(FindPlan, SprawlsOnFourLegs) {
   const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
   EXPECT_EQ(plan.plan, BodyKind::quadruped) << plan.reason;
   EXPECT_EQ(plan.axes(2, 2), 1);
+}
+
+/// Its height is no measure of how exactly the feet of a low body stand.
+TEST(FindPlan, ALowBodyMayLiftItsFeetALittle) {
+  for (const double front_feet : {0.6, 1.2}) {
+    const RigSubject subject = lizard(front_feet);
+    const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+    EXPECT_EQ(plan.plan == BodyKind::quadruped, front_feet < 1)
+        << plan.reason << ", " << front_feet;
+  }
+}
+
+/// Head and tail as high as each other, and three toes.
+RigSubject hen(double x_of_legs, double gap_of_toes) {
+  BodyCurve figure;
+  const int hips = figure.add({0, 9, 0}, 2.4);
+  const int neck = figure.add({0, 14, 3.5}, 1.2, hips);
+  figure.add({0, 18, 7}, 0.4, figure.add({0, 18, 4.5}, 0.9, neck));
+  figure.add({0, 18.5, -5}, 0.8, figure.add({0, 14, -3.5}, 1.6, hips));
+  for (const double side : {1.0, -1.0}) {
+    int leg = hips;
+    for (const double y : {7.0, 3.5, 0.6}) leg = figure.add({x_of_legs * side, y, 0}, 0.4, leg);
+    for (const double inwards : {-1.0, 0.0, 1.0}) {
+      const double tip = x_of_legs - inwards * (x_of_legs - gap_of_toes / 2);
+      figure.add({tip * side, 0.3, 3}, 0.2, leg);
+    }
+  }
+  return subject_of("hen", figure);
+}
+
+/// The inner toes are stretched, as tubes so near each other are hardly told apart.
+TEST(FindPlan, AHenStandsOnTwoLegsHoweverNearItsToesAre) {
+  constexpr double x = 2.4;
+  constexpr double usual_gap = 1.2;
+  const RigSubject usual = hen(x, usual_gap);
+  for (const double gap : {usual_gap, 0.1, 0.0}) {
+    const auto stretched = [&](Positions places) {
+      for (auto place : places.rowwise()) {
+        const double inwards = x - std::abs(place.x());
+        if (place.y() > 0.7 || inwards < 0) continue;
+        place.x() = std::copysign(x - inwards * (2 * x - gap) / (2 * x - usual_gap), place.x());
+      }
+      return places;
+    };
+    RigSubject subject = usual;
+    subject.surface.positions = stretched(usual.surface.positions);
+    subject.skeleton.nodes = stretched(usual.skeleton.nodes);
+    const BodyPlan plan = find_plan(subject.surface, subject.skeleton);
+    EXPECT_EQ(plan.plan, BodyKind::tailed_biped) << plan.reason << ", gap " << gap;
+    EXPECT_EQ(plan.axes(2, 2), 1) << gap;
+    EXPECT_NE(joint_of(plan, "shin.R"), nullptr) << gap;
+  }
 }
 
 /// Ears are no arms where a pair of front legs reaches the ground, if aslant.
