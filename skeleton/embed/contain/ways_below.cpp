@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <functional>
 #include <queue>
+#include <tuple>
 #include <unordered_map>
 #include <utility>
 
@@ -53,7 +54,6 @@ std::optional<std::vector<Point>> WaysBelow::between(const CurvePoint& from, con
 std::optional<std::vector<Point>> WaysBelow::way_for(const CurvePoint& from, const CurvePoint& to,
                                                      HomologyGuard* handles,
                                                      const IsGood* is_good) {
-  constexpr int most_tries = 100;  // each finds a way round the places where the last one left
   Task task{tree_.nearest(from.place()), tree_.nearest(to.place())};
   task.handles = handles;
   task.is_good = is_good;
@@ -64,15 +64,7 @@ std::optional<std::vector<Point>> WaysBelow::way_for(const CurvePoint& from, con
       !line_stays_inside(tree_, task.end, to.place())) {
     return std::nullopt;
   }
-  std::set<Step> avoided;
-  for (int t = 0; t < most_tries && more_fruitless_tries_ > 0 && more_places_ > 0; ++t) {
-    throw_if_stopped(stop_);
-    const std::size_t known = avoided.size();
-    auto line = search(task, avoided);
-    if (line || avoided.size() == known) return line;
-    --more_fruitless_tries_;
-  }
-  return std::nullopt;
+  return search(task);
 }
 
 std::vector<Point> WaysBelow::line_of(const Task& task,
@@ -83,69 +75,62 @@ std::vector<Point> WaysBelow::line_of(const Task& task,
   return line;
 }
 
-/// `avoided` gets the steps that don't.
-bool WaysBelow::stays_inside(const std::vector<Point>& line, const std::vector<std::int32_t>& edges,
-                             std::set<Step>& avoided) const {
-  bool all = true;
-  for (std::size_t k = 0; k + 1 < line.size(); ++k) {
-    if (line_stays_inside(tree_, line[k], line[k + 1])) continue;
-    avoided.insert({k == 0 ? -1 : edges[k - 1], k == edges.size() ? -1 : edges[k]});
-    all = false;
-  }
-  return all;
-}
-
 /// A* over the edges' middles; each edge by the half-edge of the face that it is reached from, and
-/// as often as ways to it go round other handles.
-std::optional<std::vector<Point>> WaysBelow::search(const Task& task, std::set<Step>& avoided) {
+/// as often as ways to it go round other handles. A step is looked at when its turn has come, so
+/// that few are.
+std::optional<std::vector<Point>> WaysBelow::search(const Task& task) {
   constexpr std::int64_t most_places = 300000;
   constexpr int most_ways = 20;
-  const std::int64_t last_place = std::min(most_places, more_places_);
   pair_edges();
-  std::unordered_map<Place, Reached, HashOfPlace> reached;
-  using Entry = std::pair<double, Place>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-  const auto reach = [&](std::int32_t h, const Place& by, const Point& at, double length) {
-    if (!avoided.empty() && avoided.contains({by.half_edge, h})) return;
-    Place to{h, by.number};
-    if (task.handles != nullptr) to.number ^= number_of_step(task, by.half_edge, h);
-    const Point place = h < 0 ? Point(task.to.point) : middle(h);
-    const double its = length + (place - at).norm();
-    const auto [entry, is_new] = reached.try_emplace(to);
-    if (!is_new && (entry->second.done || entry->second.length <= its)) return;
-    entry->second = {its, by, false};
-    open.emplace(its + (task.to.point - place).norm(), to);
+  std::unordered_map<Place, Place, HashOfPlace> before;  // of those that were reached
+  struct Step {
+    double estimate = 0;  // of the whole way
+    double length = 0;    // up to its end
+    Place by;
+    Place to;
+    [[nodiscard]] bool operator>(const Step& other) const {
+      return std::tie(estimate, to, by) > std::tie(other.estimate, other.to, other.by);
+    }
   };
+  std::priority_queue<Step, std::vector<Step>, std::greater<>> open;
   const auto leave = [&](std::int32_t face, const Place& by, const Point& at, double length) {
-    if (face == task.to.triangle) reach(-1, by, at, length);
+    const auto reach = [&](std::int32_t h) {
+      Place to{h, by.number};
+      if (task.handles != nullptr) to.number ^= number_of_step(task, by.half_edge, h);
+      if (before.contains(to)) return;
+      const Point place = h < 0 ? Point(task.to.point) : middle(h);
+      const double its = length + (place - at).norm();
+      open.push({its + (task.to.point - place).norm(), its, by, to});
+    };
+    if (face == task.to.triangle) reach(-1);
     for (std::int32_t h = 3 * face; h < 3 * face + 3; ++h) {
-      if (by.half_edge < 0 || h != half_edges_->twin[idx(by.half_edge)]) reach(h, by, at, length);
+      if (by.half_edge < 0 || h != half_edges_->twin[idx(by.half_edge)]) reach(h);
     }
   };
   leave(task.from.triangle, {}, task.from.point, 0);
-  const auto count = [&reached] { return static_cast<std::int64_t>(reached.size()); };
-  int ways = 0;
-  while (!open.empty() && ways < most_ways && (task.handles == nullptr || count() < last_place)) {
-    const Place place = open.top().second;
+  std::int64_t more = task.handles == nullptr ? more_places_ : std::min(most_places, more_places_);
+  for (int ways = 0; !open.empty() && ways < most_ways && more > 0;) {
+    const Step step = open.top();
     open.pop();
-    Reached& here = reached.at(place);
-    if (std::exchange(here.done, true)) continue;
-    if (place.half_edge >= 0) {
-      leave(half_edges_->twin[idx(place.half_edge)] / 3, place, middle(place.half_edge),
-            here.length);
+    if (before.contains(step.to) || !stays_inside(task, step.by.half_edge, step.to.half_edge)) {
+      continue;
+    }
+    throw_if_stopped(stop_);
+    before.emplace(step.to, step.by);
+    --more;
+    --more_places_;
+    if (step.to.half_edge >= 0) {
+      leave(half_edges_->twin[idx(step.to.half_edge)] / 3, step.to, middle(step.to.half_edge),
+            step.length);
       continue;
     }
     ++ways;
     std::vector<std::int32_t> edges;
-    for (Place e = here.before; e.half_edge >= 0; e = reached.at(e).before) {
-      edges.push_back(e.half_edge);
-    }
+    for (Place e = step.by; e.half_edge >= 0; e = before.at(e)) edges.push_back(e.half_edge);
     std::reverse(edges.begin(), edges.end());
     std::vector<Point> line = line_of(task, edges);
-    if (!stays_inside(line, edges, avoided)) continue;
     if (task.is_good == nullptr || (*task.is_good)(line)) return line;
   }
-  if (task.handles != nullptr) more_places_ -= count();
   return std::nullopt;
 }
 
@@ -153,19 +138,39 @@ void WaysBelow::pair_edges() {
   if (half_edges_) return;
   half_edges_ =
       pair_half_edges(surface_.triangles, static_cast<std::int32_t>(surface_.positions.rows()));
-  step_numbers_.resize(2 * half_edges_->twin.size());
+  steps_.resize(2 * half_edges_->twin.size());
 }
 
 std::uint64_t WaysBelow::number_of_step(const Task& task, std::int32_t from, std::int32_t to) {
   const auto computed = [&] {
-    return task.handles->number(from < 0 ? task.start : below_edge(from),
-                                to < 0 ? task.end : below_edge(to));
+    const auto [start, end] = ends_of_step(task, from, to);
+    return task.handles->number(start, end);
   };
   if (from < 0 || to < 0) return computed();
-  const bool is_next = to == next_half_edge(half_edges_->twin[idx(from)]);
-  auto& known = step_numbers_[2 * idx(from) + (is_next ? 1 : 0)];
+  auto& known = known_of(from, to).number;
   if (!known) known = computed();
   return *known;
+}
+
+bool WaysBelow::stays_inside(const Task& task, std::int32_t from, std::int32_t to) {
+  const auto computed = [&] {
+    const auto [start, end] = ends_of_step(task, from, to);
+    return line_stays_inside(tree_, start, end);
+  };
+  if (from < 0 || to < 0) return computed();
+  auto& known = known_of(from, to).is_inside;
+  if (!known) known = computed();
+  return *known;
+}
+
+std::pair<Point, Point> WaysBelow::ends_of_step(const Task& task, std::int32_t from,
+                                                std::int32_t to) const {
+  return {from < 0 ? task.start : below_edge(from), to < 0 ? task.end : below_edge(to)};
+}
+
+WaysBelow::KnownStep& WaysBelow::known_of(std::int32_t from, std::int32_t to) {
+  const bool is_next = to == next_half_edge(half_edges_->twin[idx(from)]);
+  return steps_[2 * idx(from) + (is_next ? 1 : 0)];
 }
 
 Point WaysBelow::below(std::int32_t face, const Point& place) const {

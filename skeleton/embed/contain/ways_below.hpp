@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <set>
 #include <stop_token>
 #include <utility>
 #include <vector>
@@ -30,15 +29,15 @@ class WaysBelow {
 
   /// From the nearest triangle of one point to that of the other by the shortest way across edges
   /// that stays inside: its places, without the two points themselves. Nothing if there is none, or
-  /// not after a hundred tries to go round places where the surface goes through itself, a thousand
-  /// for all ways together. Precondition: both points inside. O(m log m) for the m edges as near as
-  /// the other point. Throws Cancelled if a stop was requested.
+  /// not among the places that may be looked at for all ways together, a million. Precondition:
+  /// both points inside. O(m log m) for the m edges as near as the other point. Throws Cancelled if
+  /// a stop was requested.
   [[nodiscard]] std::optional<std::vector<Point>> between(const CurvePoint& from,
                                                           const CurvePoint& to);
 
   /// The same by the shortest of those ways that go round different handles that `is_good` takes.
   /// Of ways round many handles there are too many: nothing, either, if none of the 20 shortest is
-  /// good, or these are not found among 300,000 places, a million for all ways together.
+  /// good, or these are not found among 300,000 places.
   /// Precondition: the handles' surface has handles, and `handles` is the same for all ways.
   using IsGood = std::function<bool(const std::vector<Point>& way)>;
   [[nodiscard]] std::optional<std::vector<Point>> between(const CurvePoint& from,
@@ -47,7 +46,6 @@ class WaysBelow {
                                                           const IsGood& is_good);
 
  private:
-  using Step = std::pair<std::int32_t, std::int32_t>;  // half-edges; -1: one of the two points
   /// A half-edge and the sum of the handles' numbers on the way to it, see HomologyClasses.
   struct Place {
     std::int32_t half_edge = -1;
@@ -62,10 +60,10 @@ class WaysBelow {
       return static_cast<std::size_t>(place.half_edge) ^ place.number;
     }
   };
-  struct Reached {
-    double length = 0;
-    Place before;
-    bool done = false;
+  /// From the middle of an edge to that of another one of the same face.
+  struct KnownStep {
+    std::optional<std::uint64_t> number;
+    std::optional<bool> is_inside;
   };
   /// The ends of a way, below their triangles, and what is wanted of it.
   struct Task {
@@ -81,14 +79,16 @@ class WaysBelow {
                                                           const CurvePoint& to,
                                                           HomologyGuard* handles,
                                                           const IsGood* is_good);
-  [[nodiscard]] std::optional<std::vector<Point>> search(const Task& task, std::set<Step>& avoided);
+  [[nodiscard]] std::optional<std::vector<Point>> search(const Task& task);
   [[nodiscard]] std::vector<Point> line_of(const Task& task,
                                            const std::vector<std::int32_t>& edges) const;
-  [[nodiscard]] bool stays_inside(const std::vector<Point>& line,
-                                  const std::vector<std::int32_t>& edges,
-                                  std::set<Step>& avoided) const;
   void pair_edges();
+  /// Of steps between half-edges; -1 = one of the task's two points.
   [[nodiscard]] std::uint64_t number_of_step(const Task& task, std::int32_t from, std::int32_t to);
+  [[nodiscard]] bool stays_inside(const Task& task, std::int32_t from, std::int32_t to);
+  [[nodiscard]] std::pair<Point, Point> ends_of_step(const Task& task, std::int32_t from,
+                                                     std::int32_t to) const;
+  [[nodiscard]] KnownStep& known_of(std::int32_t from, std::int32_t to);
   [[nodiscard]] Point below(std::int32_t face, const Point& place) const;
   [[nodiscard]] Point below_edge(std::int32_t half_edge) const;
   [[nodiscard]] Point middle(std::int32_t half_edge) const;
@@ -97,12 +97,10 @@ class WaysBelow {
   const SurfaceTree& tree_;
   std::stop_token stop_;
   std::optional<HalfEdges> half_edges_;  // made when first asked for
-  // Of the two steps from each half-edge across the face beyond it: a search takes the same step
-  // once for each number that it comes with.
-  std::vector<std::optional<std::uint64_t>> step_numbers_;
+  // Two from each half-edge across the face beyond it, which a search may take several times.
+  std::vector<KnownStep> steps_;
   // For all ways, as a surface may meet itself everywhere.
-  int more_fruitless_tries_ = 1000;
-  std::int64_t more_places_ = 1000000;  // with handles
+  std::int64_t more_places_ = 1000000;
 };
 
 }  // namespace curveskel
