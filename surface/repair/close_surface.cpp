@@ -175,16 +175,27 @@ std::vector<MeshFace> add_delaunay_faces(HalfEdgeMesh& mesh,
   return faces;
 }
 
+/// Until no more edges are left than these. Returns whether rings were needed.
+bool narrow(HalfEdgeMesh& mesh, MeshHalfEdge& at_hole, std::vector<MeshHalfEdge>& border,
+            std::int64_t most_edges) {
+  bool narrowed = false;
+  for (; border.size() > idx(most_edges); narrowed = true) {
+    at_hole = add_ring(mesh, at_hole);
+    border = border_of(mesh, at_hole);
+  }
+  return narrowed;
+}
+
 /// Returns whether rings came first.
 bool fill(ClosingMesh& closing, MeshHalfEdge at_hole, const Monitor& monitor) {
   HalfEdgeMesh& mesh = closing.mesh;
   std::vector<MeshHalfEdge> border = border_of(mesh, at_hole);
-  const bool narrowed = border.size() > idx(most_edges_without_rings);
-  while (border.size() > idx(most_edges_without_rings)) {
-    at_hole = add_ring(mesh, at_hole);
-    border = border_of(mesh, at_hole);
-  }
+  bool narrowed = narrow(mesh, at_hole, border, most_edges_without_rings);
   std::vector<MeshFace> faces = add_delaunay_faces(mesh, border, monitor);
+  if (faces.empty() && narrow(mesh, at_hole, border, most_edges_without_delaunay)) {
+    narrowed = true;
+    faces = add_delaunay_faces(mesh, border, monitor);
+  }
   if (faces.empty()) {
     pmp::triangulate_hole(
         mesh, at_hole, std::back_inserter(faces),

@@ -90,8 +90,7 @@ void describe_repairs(Repairs& repairs, const Monitor& monitor) {
            (repairs.vertices_added == 1 ? " vertex" : " vertices") + " (the longest has " +
            std::to_string(repairs.longest_hole) + " edges)");
   said(repairs.holes_narrowed, "hole", "holes",
-       "of more than " + std::to_string(most_edges_without_rings) +
-           " edges narrowed by rings of triangles, each of half as many, before it was closed");
+       "narrowed by rings of triangles first, each with half as many edges as the one before");
   said(repairs.faces_wrapped, "face", "faces",
        std::string("wrapped, as ") +
            (repairs.wrapped_as_asked ? "asked" : "no closing of the holes gives them an inside") +

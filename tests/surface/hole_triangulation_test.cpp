@@ -14,7 +14,9 @@
 #include <utility>
 #include <vector>
 
+#include <curveskel/advanced/closed_manifold.hpp>
 #include <curveskel/monitor.hpp>
+#include "surface/repair/close_surface.hpp"
 
 namespace curveskel::hole_triangulation_laws {
 namespace {
@@ -167,6 +169,31 @@ TEST(HoleTriangulation, StopsWhenAsked) {
   const Rim rim = regular_rim(40);
   EXPECT_THROW((void)triangulate_hole(rim.corners, rim.beyond, nowhere, stop.get_token()),
                Cancelled);
+}
+
+/// A cone over a polygon that goes to and fro at random: the search among all triangles would take
+/// seconds.
+TEST(HoleTriangulation, ATangledRimWithoutDelaunayTrianglesIsNarrowed) {
+  constexpr int count = 200;
+  int tangled = 0;
+  for (std::uint32_t seed = 0; seed < 6; ++seed) {
+    std::mt19937 random(seed);
+    Surface cone{Positions(count + 1, 3), Triangles(count, 3)};
+    for (Eigen::Index i = 0; i < cone.positions.size(); ++i) {
+      cone.positions.data()[i] = static_cast<double>(random()) / 4294967296.0;
+    }
+    Rim rim{cone.positions.topRows(count), Positions(count, 3)};
+    for (std::int32_t i = 0; i < count; ++i) {
+      cone.triangles.row(i) << (i + 1) % count, i, count;
+      rim.beyond.row(i) = cone.positions.row(count);
+    }
+    const bool is_tangled = filled(rim).empty();
+    tangled += is_tangled ? 1 : 0;
+    const ClosedParts closed = close_surface(cone, {});
+    EXPECT_NO_THROW(require_closed_manifold(closed.surface, "a test")) << seed;
+    EXPECT_EQ(closed.holes_narrowed, is_tangled ? 1 : 0) << seed;
+  }
+  EXPECT_GT(tangled, 0);
 }
 
 }  // namespace
