@@ -222,13 +222,8 @@ Json to_json(const SurfaceSize& size) {
           {"volume", size.volume}};
 }
 
-Json to_json(const ExtractionRecord& record, bool with_times) {
-  Json components = Json::array();
-  for (const ComponentRecord& component : record.extraction.components) {
-    components.push_back(to_json(component, with_times));
-  }
-  Json history = Json::array();
-  for (const Try& one : record.extraction.history) history.push_back(to_json(one, with_times));
+/// Without the entries of its components and its history, see `text_of`.
+Json to_json(const ExtractionRecord& record) {
   Json parameters = {{"preset", name_of(presets, record.preset)},
                      {"repair", to_json(record.repair_options)}};
   parameters.update(to_json(record.options));
@@ -243,8 +238,8 @@ Json to_json(const ExtractionRecord& record, bool with_times) {
           {"repairs", to_json(record.repaired.repairs)},
           {"surface", to_json(size_of(record.repaired.surface, record.extraction.certificate))},
           {"parameters", std::move(parameters)},
-          {"components", std::move(components)},
-          {"history", std::move(history)},
+          {"components", Json::array()},
+          {"history", Json::array()},
           {"notes", record.notes},
           {"skeleton",
            {{"nodes", record.extraction.skeleton.nodes.rows()},
@@ -282,6 +277,34 @@ std::string text_of(const Json& json, int indent) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
+/// Each on a line of its own, and made for it: there may be tens of thousands.
+template <typename Entries>
+void append_entries(std::string& text, const Entries& entries, bool with_times) {
+  text += '[';
+  for (std::size_t k = 0; k < entries.size(); ++k) {
+    text += k == 0 ? "\n" : ",\n";
+    text += text_of(to_json(entries[k], with_times), -1);
+  }
+  text += ']';
+}
+
+/// The members of a record, with the entries of its components and its history.
+std::string text_of(const Json& members, const Extraction& extraction, bool with_times) {
+  std::string text = "{";
+  for (const auto& [name, value] : members.items()) {
+    text += text.size() == 1 ? "\n" : ",\n";
+    text += text_of(name, -1) + ": ";
+    if (name == "components") {
+      append_entries(text, extraction.components, with_times);
+    } else if (name == "history") {
+      append_entries(text, extraction.history, with_times);
+    } else {
+      text += text_of(value, 1);
+    }
+  }
+  return text + "\n}\n";
+}
+
 }  // namespace
 
 SurfaceSize size_of(const Surface& surface, const Certificate& certificate) {
@@ -308,11 +331,11 @@ std::string history_in_lines(const ExtractionRecord& record, const std::string& 
 }
 
 std::string result_json(const ExtractionRecord& record) {
-  return text_of(to_json(record, false), -1);
+  return text_of(to_json(record), record.extraction, false);
 }
 
 std::string report_json(const ExtractionRecord& record, const RunRecord& run) {
-  Json json = to_json(record, true);
+  Json json = to_json(record);
   Json times = Json::array();
   for (const StageTime& time : run.times) times.push_back(to_json(time));
   json["outputs"] = run.outputs;
@@ -320,7 +343,7 @@ std::string report_json(const ExtractionRecord& record, const RunRecord& run) {
   json["times"] = std::move(times);
   json["seconds"] = run.seconds;
   json["peak_memory_bytes"] = peak_memory_bytes();
-  return text_of(json, 2) + "\n";
+  return text_of(json, record.extraction, true);
 }
 
 std::string evaluation_json(const std::string& surface_file, const std::string& skeleton_file,

@@ -1,7 +1,12 @@
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include <curveskel/error.hpp>
 #include <curveskel/levels.hpp>
@@ -62,24 +67,71 @@ void append_branches(std::string& text, const CurveSkeleton& skeleton) {
   text += ']';
 }
 
-/// The members of the report object, each as `, "key": value`.
+/// Of a text that is one JSON object the names of its members, of others nothing. No value is kept,
+/// as reports of many components are long.
+class MemberNames : public nlohmann::json_sax<nlohmann::json> {
+ public:
+  [[nodiscard]] static std::optional<std::vector<std::string>> of(const std::string& text) {
+    MemberNames members;
+    if (!nlohmann::json::sax_parse(text, &members) || !members.is_object_) return std::nullopt;
+    return std::move(members.names_);
+  }
+
+  bool null() override { return true; }
+  bool boolean(bool /*value*/) override { return true; }
+  bool number_integer(std::int64_t /*value*/) override { return true; }
+  bool number_unsigned(std::uint64_t /*value*/) override { return true; }
+  bool number_float(double /*value*/, const std::string& /*text*/) override { return true; }
+  bool string(std::string& /*value*/) override { return true; }
+  bool binary(nlohmann::json::binary_t& /*value*/) override { return true; }
+  bool start_object(std::size_t /*members*/) override {
+    is_object_ = is_object_ || depth_ == 0;
+    ++depth_;
+    return true;
+  }
+  bool key(std::string& name) override {
+    if (depth_ == 1) names_.push_back(name);
+    return true;
+  }
+  bool end_object() override { return --depth_ >= 0; }
+  bool start_array(std::size_t /*values*/) override {
+    ++depth_;
+    return true;
+  }
+  bool end_array() override { return --depth_ >= 0; }
+  bool parse_error(std::size_t /*place*/, const std::string& /*token*/,
+                   const nlohmann::json::exception& /*error*/) override {
+    return false;
+  }
+
+ private:
+  int depth_ = 0;
+  bool is_object_ = false;
+  std::vector<std::string> names_;
+};
+
+/// The members of the report object as they are, each after a comma.
 void append_report(std::string& text, const std::string& report_json) {
   if (report_json.empty()) return;
-  const auto report = nlohmann::ordered_json::parse(report_json, nullptr, false);
-  if (!report.is_object()) {
+  const std::optional<std::vector<std::string>> names = MemberNames::of(report_json);
+  if (!names) {
     throw Error(Fault::output,
                 "the report for the JSON skeleton is no JSON object, needed one; pass {...}");
   }
   constexpr std::array<std::string_view, 10> own{
       "format", "version", "provenance",     "nodes", "edges",
       "radii",  "lives",   "node_of_vertex", "root",  "branches"};
-  for (const auto& [key, value] : report.items()) {
-    if (std::find(own.begin(), own.end(), key) != own.end()) {
-      throw Error(Fault::output, "the report for the JSON skeleton has a member \"" + key +
+  for (const std::string& name : *names) {
+    if (std::find(own.begin(), own.end(), name) != own.end()) {
+      throw Error(Fault::output, "the report for the JSON skeleton has a member \"" + name +
                                      "\", needed other names than the skeleton's own; rename it");
     }
-    text += ",\n" + nlohmann::json(key).dump() + ": " + value.dump(1);
   }
+  if (names->empty()) return;
+  constexpr const char* space = " \t\r\n";
+  const std::size_t first = report_json.find_first_not_of(space, report_json.find('{') + 1);
+  const std::size_t last = report_json.find_last_not_of(space, report_json.rfind('}') - 1);
+  text.append(",\n").append(report_json, first, last - first + 1);
 }
 
 }  // namespace
