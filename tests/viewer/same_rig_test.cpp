@@ -30,8 +30,8 @@ std::string bytes_of(const fs::path& file) {
 
 /// `curveskel rig`; 0 where it is done.
 int run_rig_verb(const fs::path& file, const fs::path& output, const Words& options) {
-  std::string command = CURVESKEL_PROGRAM " rig -q '" + file.string() + "' -o '" +
-                        output.string() + "'";
+  std::string command =
+      CURVESKEL_PROGRAM " rig -q '" + file.string() + "' -o '" + output.string() + "'";
   for (const std::string& word : options) command += " " + word;
   return std::system(command.c_str());
 }

@@ -30,8 +30,7 @@ constexpr int largest_side = 16384;
 
 void add_rig(Scene& scene, const RunOptions& options, const Monitor& monitor) {
   ExtractionCache cache;
-  scene.recording.add(
-      moment_of(rig_of_surface(scene.document, options, monitor, cache).character));
+  scene.recording.add(moment_of(rig_of_surface(scene.document, options, monitor, cache).character));
 }
 
 /// Of the skeleton that was opened, as the window makes it.

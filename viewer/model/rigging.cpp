@@ -29,8 +29,8 @@ RunOptions options_for_rig(RunOptions options, double detail, const CharacterOpt
   return options;
 }
 
-FoundRig rig_of_surface(const Document& document, const RunOptions& options,
-                        const Monitor& monitor, ExtractionCache& cache) {
+FoundRig rig_of_surface(const Document& document, const RunOptions& options, const Monitor& monitor,
+                        ExtractionCache& cache) {
   const RigPolygonsOptions wanted{options.repair, options.extract, options.character,
                                   options.extract.threads};
   PolygonsRig made = rig_polygons(*document.polygons(), {}, wanted, monitor, cache);

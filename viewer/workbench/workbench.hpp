@@ -317,7 +317,7 @@ class Workbench {
   std::shared_ptr<StageNews> rigging_news_;
   std::future<Rigged> rigging_;
   std::shared_ptr<ExtractionCache> rig_memory_;  // of the rig that is made, one at a time
-  std::filesystem::path save_rig_to_;  // once it is there; empty = nowhere
+  std::filesystem::path save_rig_to_;            // once it is there; empty = nowhere
   std::vector<int> selected_nodes_;
   int selected_edge_ = -1;
   int selected_joint_ = -1;

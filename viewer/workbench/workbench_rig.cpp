@@ -87,10 +87,9 @@ Workbench::RigWork Workbench::work_of_skeleton(const Edited& given) const {
           certificate_options = pipeline.extract.certificate,
           repair_options = pipeline.repair](const Document& document, const Monitor& monitor) {
     const auto repaired = repaired_of(document, surface, repair_options, monitor);
-    const Certificate certificate =
-        known ? *known
-              : certificate_of(*ground_of(repaired, monitor, near), *skeleton, certificate_options,
-                               monitor);
+    const Certificate certificate = known ? *known
+                                          : certificate_of(*ground_of(repaired, monitor, near),
+                                                           *skeleton, certificate_options, monitor);
     FoundRig found{rig_of(document, *repaired, *skeleton, &certificate, options, monitor), {}};
     found.findings = rig_findings(*found.character, options);
     const std::string on_sheets = words_on_sheets(*repaired, repair_options);
@@ -115,7 +114,8 @@ bool Workbench::take_rig() {
   if (!is_ready(rigging_)) return false;
   const Rigged made = rigging_.get();
   // By a person, or by a change, even one taken back.
-  const bool stopped = rigging_stop_.stop_requested() || (!made.rig.character && made.error.empty());
+  const bool stopped =
+      rigging_stop_.stop_requested() || (!made.rig.character && made.error.empty());
   const bool stale = stopped || run_ || made.scene != scene || history_.empty() ||
                      made.of.skeleton != history_.now().skeleton ||
                      made.of.root != history_.now().root;
