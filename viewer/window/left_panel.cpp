@@ -159,6 +159,9 @@ void parameters(Workbench& bench) {
 
 /// The rig that is shown stays as it is.
 void exported(ExportOptions& options) {
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  ImGui::TextWrapped("in the file that is saved:");
+  ImGui::PopStyleColor();
   choose("pose", options.pose, rest_poses,
          "The pose at rest of a rig that is saved; vertices stay as they are. The picture keeps "
          "the pose of the file.");
