@@ -242,6 +242,18 @@ TEST_F(SameRig, OnceACorrectionIsTakenBack) {
   EXPECT_EQ(bench.scene->rig()->joints, before->joints);
 }
 
+TEST_F(SameRig, OfASkeletonThatWasCorrected) {
+  open(folder.write("parts.obj", obj_of(tube_of_several_parts())));
+  select_edge(bench, 0);
+  bench.split();
+  const fs::path skeleton = folder.path() / "corrected.json";
+  bench.save(skeleton);
+  expect_same({"--skeleton", skeleton.string()});
+  select_node(bench, 3);
+  bench.set_root();
+  expect_same({"--skeleton", skeleton.string(), "--root", "3"});
+}
+
 TEST_F(SameRig, HasItsPartsByTheVerticesOfTheFile) {
   open(folder.write("parts.obj", obj_of(tube_of_several_parts(), sheet)));
   make_rig();
