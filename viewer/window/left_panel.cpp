@@ -134,8 +134,8 @@ void parameters(Workbench& bench) {
     changed |=
         slide("least sheet", bench.pipeline.repair.least_sheet, RepairOptions().least_sheet, 0, 1,
               "Open or flat parts of at least this extent, in diagonals of the box round "
-              "the model, become thin bodies, with a skeleton and joints. 0 = all are left "
-              "out; 0.1 for the wings and ears of a character.");
+              "the model, become thin bodies, with a skeleton and joints. 0 = no skeleton "
+              "has them, and a rig has those of 0.1 and more, such as wings and ears.");
     changed |= slide("least handle", bench.pipeline.repair.least_handle,
                      RepairOptions().least_handle, 0, 1,
                      "Small handles are cut, as noise leaves them in scans and volumes: short ones "
