@@ -1,8 +1,10 @@
 // From a file's polygons to the rig of all that is in the file.
 #pragma once
 
+#include <Eigen/Core>
 #include <optional>
 
+#include <curveskel/advanced/extraction_cache.hpp>
 #include <curveskel/certificate.hpp>
 #include <curveskel/extract.hpp>
 #include <curveskel/monitor.hpp>
@@ -48,6 +50,8 @@ struct PolygonsRig {
   /// `made_of_tubes_but_for_sheets`.
   std::optional<Certificate> certificate;
   double given_inside = 1;  ///< share of the length of a skeleton that was given
+  /// Of the repaired surface, by whose vertices `character.parts` are; see RepairedSurface.
+  Eigen::VectorXi vertex_of_input;
 };
 
 /// `repair`, `find_parts`, `extract_repaired` of the body alone, `rig_body` or
@@ -58,5 +62,10 @@ struct PolygonsRig {
 [[nodiscard]] PolygonsRig rig_polygons(const PolygonSoup& soup, const RigSources& sources = {},
                                        const RigPolygonsOptions& options = {},
                                        const Monitor& monitor = {});
+
+/// The same, with the stages of the body's extraction taken from `cache`.
+[[nodiscard]] PolygonsRig rig_polygons(const PolygonSoup& soup, const RigSources& sources,
+                                       const RigPolygonsOptions& options, const Monitor& monitor,
+                                       ExtractionCache& cache);
 
 }  // namespace curveskel

@@ -51,7 +51,7 @@ struct Curve {
 /// `body` becomes its wrap where only a wrap would do. Everything is named first; then what a
 /// coarser level does without goes.
 Curve curve_for(const RigSources& sources, const RigPolygonsOptions& options, RepairedSurface& body,
-                const Monitor& monitor) {
+                const Monitor& monitor, ExtractionCache& cache) {
   Curve curve;
   if (sources.skeleton) {  // beside joints that are given
     curve.skeleton = skeleton_of_repaired(*sources.skeleton, body.vertex_of_input,
@@ -61,7 +61,6 @@ Curve curve_for(const RigSources& sources, const RigPolygonsOptions& options, Re
   ExtractOptions wanted = options.extract;
   wanted.threads = options.threads;
   wanted.embed.detail = usual_detail;
-  ExtractionCache cache;
   RepairedExtraction found = extract_repaired(body, options.repair, wanted, monitor, cache);
   if (options.extract.embed.detail > usual_detail) {
     curve.usual = std::move(found.extraction.skeleton);
@@ -128,6 +127,13 @@ bool made_of_tubes_but_for_sheets(double tube_share, const RepairedSurface& body
 
 PolygonsRig rig_polygons(const PolygonSoup& soup, const RigSources& sources,
                          const RigPolygonsOptions& options, const Monitor& monitor) {
+  ExtractionCache cache;
+  return rig_polygons(soup, sources, options, monitor, cache);
+}
+
+PolygonsRig rig_polygons(const PolygonSoup& soup, const RigSources& sources,
+                         const RigPolygonsOptions& options, const Monitor& monitor,
+                         ExtractionCache& cache) {
   CharacterOptions wanted = options.character;
   wanted.rig.skin.threads = wanted.parts.threads = options.threads;
   wanted.rig.faces_minus_z = wanted.plan.faces_minus_z = soup.faces_minus_z;
@@ -138,6 +144,7 @@ PolygonsRig rig_polygons(const PolygonSoup& soup, const RigSources& sources,
   const RepairedSurface repaired = repair(soup, options.repair, monitor, options.threads);
   const Surface given{soup.positions, triangulate(soup)};
   PolygonsRig result;
+  result.vertex_of_input = repaired.vertex_of_input;
   if (sources.skeleton && !sources.joints) {
     const CurveSkeleton whole = skeleton_of_repaired(*sources.skeleton, repaired.vertex_of_input,
                                                      repaired.surface.positions.rows());
@@ -149,7 +156,7 @@ PolygonsRig rig_polygons(const PolygonSoup& soup, const RigSources& sources,
   }
   RigParts parts = find_parts(repaired.surface, wanted.parts, monitor);
   RepairedSurface body = body_of(repaired, parts);
-  const auto [skeleton, certificate, usual] = curve_for(sources, options, body, monitor);
+  const auto [skeleton, certificate, usual] = curve_for(sources, options, body, monitor, cache);
   result.certificate = certificate;
   if (sources.joints) {
     const CurveSkeleton dense = dense_skeleton(body.surface, skeleton, monitor);

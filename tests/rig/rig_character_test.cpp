@@ -104,6 +104,26 @@ TEST_F(RigCharacter, IsTheSameFromASkeletonThatIsGiven) {
   EXPECT_TRUE(rig_polygons(soup, given).character.parts.all_body());
 }
 
+TEST_F(RigCharacter, IsTheSameWhateverTheCacheHolds) {
+  const PolygonSoup soup = soup_of(shape.surface);
+  ExtractionCache cache;
+  (void)extract_repaired(repaired, {}, {}, {}, cache);
+  for (const double detail : {0.5, 0.8, 0.2}) {
+    for (const double follow : {1.0, 0.0}) {
+      SCOPED_TRACE(testing::Message() << "detail " << detail << ", follow " << follow);
+      RigPolygonsOptions options;
+      options.extract.embed.detail = detail;
+      options.character.parts.follow = follow;
+      const PolygonsRig fresh = rig_polygons(soup, {}, options);
+      const PolygonsRig cached = rig_polygons(soup, {}, options, {}, cache);
+      EXPECT_EQ(cached.character.rig.names, fresh.character.rig.names);
+      EXPECT_EQ(cached.character.rig.joints, fresh.character.rig.joints);
+      EXPECT_EQ((cached.character.rig.weights - fresh.character.rig.weights).norm(), 0);
+      EXPECT_EQ(cached.vertex_of_input, repaired.vertex_of_input);
+    }
+  }
+}
+
 /// The mean of two hands in a pose lies beside both.
 TEST(RealCharacters, OfOnePieceHaveTheirJointsWithinThem) {
   for (const std::string& file : present_among({"humanoid-10k.ply", "spot-3k.obj"})) {

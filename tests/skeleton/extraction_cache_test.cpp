@@ -302,6 +302,29 @@ TEST(CachedSurface, MayBeMovedAlong) {
   expect_run_from("normalise", false, extract(surface, options, {}, cache));
 }
 
+TEST(CachedSurface, IsSharedByACopyThatGoesItsOwnWay) {
+  ExtractOptions options;
+  options.resolution = 1;
+  options.least_resolution = 1;
+  const Surface sieve = thin_walled(3, 0.03);  // made from all its vertices
+  const Surface other = subjects().front().surface;
+  ExtractionCache cache;
+  ASSERT_NO_THROW((void)cache.copy());
+  const Extraction first = extract(sieve, options, {}, cache);
+  ExtractionCache copy = cache.copy();
+  const Extraction again = extract(sieve, options, {}, copy);
+  expect_run_from("", false, again);
+  expect_equal(first, again);
+  ExtractOptions finer = options;
+  finer.embed.detail = 0.9;
+  finer.contraction.contraction_weight *= 2;
+  expect_equal(extract(sieve, finer, {}, copy), extract(sieve, finer, {}));
+  (void)extract(other, options, {}, copy);
+  const Extraction kept = extract(sieve, options, {}, cache);
+  expect_run_from("", false, kept);
+  expect_equal(first, kept);
+}
+
 TEST(CachedSurface, ThatIsFairedAfterAllIsFreshToo) {
   // Asked for more than any curve has, so that the second run is always made.
   ExtractionCache cache;

@@ -28,11 +28,9 @@ using Part = Renderer::Part;
 /// Beyond this the driver's largest picture may be passed.
 constexpr int largest_side = 16384;
 
-void add_rig(Scene& scene, const RepairedSurface& repaired, const CurveSkeleton& skeleton,
-             const Certificate& certificate, const CharacterOptions& character,
-             const Monitor& monitor) {
-  scene.recording.add(
-      moment_of(rig_of(scene.document, repaired, skeleton, &certificate, character, monitor)));
+void add_rig(Scene& scene, const RunOptions& options, const Monitor& monitor) {
+  ExtractionCache cache;
+  scene.recording.add(moment_of(rig_of_surface(scene.document, options, monitor, cache).character));
 }
 
 /// Of the skeleton that was opened, as the window makes it.
@@ -44,10 +42,11 @@ void add_rig_of_file(Scene& scene, const RunOptions& options, const Monitor& mon
       certificate_of(*ground, skeleton, options.extract.certificate, monitor);
   CharacterOptions character = options.character;
   character.rig.joints.root = scene.document.root;
-  add_rig(scene, *ground->repaired, skeleton, certificate, character, monitor);
+  scene.recording.add(moment_of(
+      rig_of(scene.document, *ground->repaired, skeleton, &certificate, character, monitor)));
 }
 
-/// Waits for the run; the scene's recording has all of it then, the rig if that is wished for.
+/// Waits for the run; the scene's recording has all of it then.
 void finish_run(Scene& scene, const ViewOptions& options, const Monitor& monitor) {
   Run run(scene.document.polygons(), options.pipeline, scene.document.space,
           std::make_shared<RunMemory>(), false);
@@ -57,9 +56,6 @@ void finish_run(Scene& scene, const ViewOptions& options, const Monitor& monitor
     if (news.state == Run::State::failed) throw Error(news.fault, news.error);
     if (news.state == Run::State::finished) {
       scene.recording.settle(news.result->extraction->history);
-      if (options.stage.stage != "rig") return;
-      add_rig(scene, *news.result->repaired, *news.result->skeleton,
-              news.result->extraction->certificate, options.pipeline.character, monitor);
       return;
     }
     monitor.report(news.stage.empty() ? "start" : news.stage, news.fraction);
@@ -312,7 +308,11 @@ std::string write_pictures(const ViewOptions& options, Session& session) {
   } else if (scene.document.has_surface() && wants_run &&
              (!scene.own_skeleton || options.stage_given)) {
     scene.own_skeleton = nullptr;
-    finish_run(scene, options, monitor);
+    if (makes_rig) {
+      add_rig(scene, options.pipeline, monitor);
+    } else {
+      finish_run(scene, options, monitor);
+    }
     go_to(scene, options.stage);
     look_at_rig(scene, options.joint);
   } else if (options.stage_given && !(scene.own_skeleton && options.stage.stage == "skeleton")) {

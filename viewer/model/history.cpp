@@ -11,6 +11,10 @@ bool has_work_by_hand(const Edited& state) { return state.corrected || !state.ro
 
 }  // namespace
 
+bool is_as_made(const Edited& state) {
+  return state.run != nullptr && !state.corrected && state.root < 0;
+}
+
 void History::add(Edited next) {
   next.saved = false;
   if (!states_.empty()) states_.resize(at_ + 1);
@@ -30,6 +34,7 @@ void History::go_over_to(Eigen::Index vertices) {
     skeleton = std::move(other);
   };
   for (Edited& state : states_) {
+    state.run.reset();
     forget(state.skeleton);
     forget(state.whole);
   }

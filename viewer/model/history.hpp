@@ -9,6 +9,7 @@
 
 #include <curveskel/advanced/embed.hpp>
 #include <curveskel/curve_skeleton.hpp>
+#include "viewer/model/run.hpp"
 
 namespace curveskel::viewer {
 
@@ -32,7 +33,13 @@ struct Edited {
   double detail = EmbedOptions().detail;       ///< of the level that is shown
   double detail_made = EmbedOptions().detail;  ///< of the whole, of which other levels are parts
   bool saved = false;                          ///< to a file, as it is
+  /// Of the run over the open surface that made it; null = it was read, or is of another surface.
+  std::shared_ptr<const RunOptions> run = nullptr;
 };
+
+/// True if the skeleton, at whatever detail, is what a run over the open surface made, and the root
+/// is for the rig to choose.
+[[nodiscard]] bool is_as_made(const Edited& state);
 
 /// States in order; the past is kept whole, the future until something else is done.
 class History {
@@ -41,7 +48,7 @@ class History {
   /// In place of the present state, which is not worth going back to; later ones stay.
   /// Precondition: not empty.
   void replace(Edited other);
-  /// Of another surface: forgets the vertex maps that are not of so many vertices.
+  /// Of another surface: forgets the runs, and the vertex maps that are not of so many vertices.
   void go_over_to(Eigen::Index vertices);
   [[nodiscard]] bool can_undo() const { return at_ > 0; }
   [[nodiscard]] bool can_redo() const { return at_ + 1 < states_.size(); }

@@ -6,8 +6,44 @@
 #include <utility>
 
 #include <curveskel/rig_polygons.hpp>
+#include "app/rig_findings.hpp"
 
 namespace curveskel::viewer {
+namespace {
+
+/// To those of the file, from those of the repaired surface.
+void put_on_input_vertices(RigParts& parts, const Eigen::VectorXi& vertex_of_input) {
+  const Eigen::VectorXi of_repaired = parts.part_of_vertex;
+  parts.part_of_vertex = vertex_of_input.unaryExpr([&](int vertex) {
+    return vertex >= 0 && vertex < of_repaired.size() ? of_repaired[vertex] : -1;
+  });
+}
+
+}  // namespace
+
+RunOptions options_for_rig(RunOptions options, double detail, const CharacterOptions& character) {
+  options.extract.embed.detail = detail;
+  options.character = character;
+  double& least_sheet = options.repair.least_sheet;
+  if (least_sheet <= 0) least_sheet = repair_for_rigs().least_sheet;
+  return options;
+}
+
+FoundRig rig_of_surface(const Document& document, const RunOptions& options, const Monitor& monitor,
+                        ExtractionCache& cache) {
+  const RigPolygonsOptions wanted{options.repair, options.extract, options.character,
+                                  options.extract.threads};
+  PolygonsRig made = rig_polygons(*document.polygons(), {}, wanted, monitor, cache);
+  put_on_input_vertices(made.character.parts, made.vertex_of_input);
+  FoundRig found;
+  const std::string failed = skeleton_findings(made, wanted);
+  if (!failed.empty()) found.findings.push_back(failed);
+  for (std::string& finding : rig_findings(made.character, options.character)) {
+    found.findings.push_back(std::move(finding));
+  }
+  found.character = std::make_shared<const CharacterRig>(std::move(made.character));
+  return found;
+}
 
 std::shared_ptr<const CharacterRig> rig_of(
     const Document& document, const RepairedSurface& repaired, const CurveSkeleton& skeleton,
@@ -20,10 +56,7 @@ std::shared_ptr<const CharacterRig> rig_of(
   CharacterRig made =
       rig_character(document.surface, repaired, mapped, facing, monitor, certificate);
   made.rig.to_y_up = axes_to_gltf(document.format, document.to_gltf, made.plan, facing.plan.up);
-  const Eigen::VectorXi of_repaired = made.parts.part_of_vertex;
-  made.parts.part_of_vertex = repaired.vertex_of_input.unaryExpr([&](int vertex) {
-    return vertex >= 0 && vertex < of_repaired.size() ? of_repaired[vertex] : -1;
-  });
+  put_on_input_vertices(made.parts, repaired.vertex_of_input);
   return std::make_shared<const CharacterRig>(std::move(made));
 }
 

@@ -134,8 +134,8 @@ void parameters(Workbench& bench) {
     changed |=
         slide("least sheet", bench.pipeline.repair.least_sheet, RepairOptions().least_sheet, 0, 1,
               "Open or flat parts of at least this extent, in diagonals of the box round "
-              "the model, become thin bodies, with a skeleton and joints. 0 = all are left "
-              "out; 0.1 for the wings and ears of a character.");
+              "the model, become thin bodies, with a skeleton and joints. 0 = no skeleton "
+              "has them, and a rig has those of 0.1 and more, such as wings and ears.");
     changed |= slide("least handle", bench.pipeline.repair.least_handle,
                      RepairOptions().least_handle, 0, 1,
                      "Small handles are cut, as noise leaves them in scans and volumes: short ones "
@@ -155,6 +155,20 @@ void parameters(Workbench& bench) {
   }
   tip("all parameters as they are without choosing any");
   if (changed && bench.scene->document.has_surface()) bench.start(false);
+}
+
+/// The rig that is shown stays as it is.
+void exported(ExportOptions& options) {
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  ImGui::TextWrapped("in the file that is saved:");
+  ImGui::PopStyleColor();
+  choose("pose", options.pose, rest_poses,
+         "The pose at rest of a rig that is saved; vertices stay as they are. The picture keeps "
+         "the pose of the file.");
+  tick("end bones", options.ends);
+  tip("joints at tips without a role, which move nothing, are in the file that is saved, too");
+  tick("root on the ground", options.ground_root);
+  tip("the file that is saved has one more joint, on the ground, that all hangs from");
 }
 
 void rig(Workbench& bench) {
@@ -181,6 +195,9 @@ void rig(Workbench& bench) {
             "many joints. A plan says itself how many joints its limbs have.");
   changed |= slide("softness", options.rig.skin.softness, usual.rig.skin.softness, 0.2, 5,
                    "How gently the skin goes over from one joint to the next.");
+  changed |= slide("joint budget", options.joint_budget, usual.joint_budget, 0, 500,
+                   "The most joints of a figure: those that move the least of the surface are "
+                   "left out, and what a body needs stays. 0 = any number.");
   ImGui::BeginDisabled(bench.running() || bench.history().empty());
   if (ImGui::Button("Make rig")) bench.rig();
   ImGui::EndDisabled();
@@ -188,6 +205,7 @@ void rig(Workbench& bench) {
           ? "a rig is made of a skeleton: press Run first"
           : "joints and skin weights for the skeleton as it is (G); Save writes them as .glb");
   if (changed && (bench.has_rig() || bench.making_rig())) bench.rig();
+  exported(bench.exported);
 }
 
 void corrections(Workbench& bench) {

@@ -196,6 +196,7 @@ void Workbench::take_document(std::shared_ptr<Scene> opened, bool same_place) {
   judgement_.reset();
   ground_.reset();
   made_rig_.reset();
+  rig_memory_.reset();
   if (same_place && history_.has_corrections()) {
     history_.go_over_to(scene->document.surface.positions.rows());
   } else {

@@ -17,11 +17,13 @@
 
 #include <curveskel/edit.hpp>
 #include <curveskel/findings.hpp>
+#include <curveskel/rest_pose.hpp>
 #include <curveskel/rig_files.hpp>
 #include <curveskel/skeleton_files.hpp>
 #include "viewer/model/defects.hpp"
 #include "viewer/model/ground.hpp"
 #include "viewer/model/history.hpp"
+#include "viewer/model/rigging.hpp"
 #include "viewer/model/run.hpp"
 #include "viewer/render/scene.hpp"
 #include "viewer/view_options.hpp"
@@ -151,8 +153,9 @@ class Workbench {
   /// Nothing is red any more. `show_...` of what is red already does the same.
   void clear_faults();
 
-  /// Makes joints and skin weights of the skeleton as it is, beside what goes on; they become the
-  /// last moment of the timeline, until the skeleton changes.
+  /// Makes joints and skin weights, beside what goes on; they become the last moment of the
+  /// timeline, until the skeleton changes. Of a skeleton as its run made it they are those of
+  /// `rig_of_surface`, else of `rig_of`.
   void rig();
   /// True if a rig is being made, of a skeleton chosen before now.
   [[nodiscard]] bool making_rig() const { return rigging_.valid(); }
@@ -209,7 +212,8 @@ class Workbench {
 
   std::shared_ptr<Scene> scene;  ///< never null
   RunOptions pipeline;
-  VrmMeta vrm;  ///< of rigs that are saved as .vrm
+  VrmMeta vrm;             ///< of rigs that are saved as .vrm
+  ExportOptions exported;  ///< of rigs that are saved
   /// Set when a person should be asked whether what `would_lose` says may be lost: for these files,
   /// or, if there are none, for leaving.
   std::optional<std::vector<std::filesystem::path>> wants_to_abandon;
@@ -234,10 +238,10 @@ class Workbench {
   struct Rigged {
     std::shared_ptr<const Scene> scene;
     Edited of;
-    std::shared_ptr<const CharacterRig> rig;  // null where it was stopped
-    std::string on_sheets;                    // see words_on_sheets
+    FoundRig rig;  // null where it was stopped
     std::string error;
   };
+  using RigWork = std::function<FoundRig(const Document& document, const Monitor& monitor)>;
   /// Poses before and after the one that is shown, of one rig.
   struct Poses {
     std::shared_ptr<const Rig> rig;
@@ -252,6 +256,8 @@ class Workbench {
   bool take_defects();
   bool take_judgement();
   bool take_rig();
+  [[nodiscard]] RigWork work_of_surface(const Edited& made);
+  [[nodiscard]] RigWork work_of_skeleton(const Edited& given) const;
   bool take_materials();
   void drop_rig();
   void place_rig();
@@ -292,7 +298,7 @@ class Workbench {
   std::optional<bool> wants_start_;            // paused or not, once those are gone
   std::shared_ptr<RunMemory> run_memory_;
   Run::News news_;
-  double run_detail_ = EmbedOptions().detail;
+  std::shared_ptr<const RunOptions> run_options_;  // of the last one
   std::chrono::steady_clock::time_point updated_ = std::chrono::steady_clock::now();
   double run_seconds_ = 0;  // without pauses
   bool first_moment_ = true;
@@ -310,7 +316,8 @@ class Workbench {
   std::stop_source rigging_stop_;
   std::shared_ptr<StageNews> rigging_news_;
   std::future<Rigged> rigging_;
-  std::filesystem::path save_rig_to_;  // once it is there; empty = nowhere
+  std::shared_ptr<ExtractionCache> rig_memory_;  // of the rig that is made, one at a time
+  std::filesystem::path save_rig_to_;            // once it is there; empty = nowhere
   std::vector<int> selected_nodes_;
   int selected_edge_ = -1;
   int selected_joint_ = -1;

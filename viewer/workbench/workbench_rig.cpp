@@ -1,9 +1,11 @@
-// The workbench's rig: made of the skeleton as it is, on another thread.
+// The workbench's rig, made on another thread.
 #include <exception>
+#include <new>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include <curveskel/advanced/file_names.hpp>
 #include <curveskel/advanced/measures.hpp>
 #include <curveskel/advanced/write_file.hpp>
 #include <curveskel/error.hpp>
@@ -32,45 +34,68 @@ void Workbench::rig() {
     return;
   }
   rigging_stop_ = {};
-  CharacterOptions options = pipeline.character;
-  options.rig.joints.root = history_.now().root;
-  // Always that of this very skeleton, so that a rig does not depend on when it was asked for.
-  std::optional<Certificate> certificate;
-  if (judgement_ && judgement_->error.empty() && judgement_->skeleton == history_.now().skeleton) {
-    certificate = judgement_->certificate;
-  }
-  auto repaired = result_ ? result_->repaired : ground_ ? ground_->repaired : nullptr;
   say("making the rig");
   rigging_news_ = std::make_shared<StageNews>();
+  Monitor told;
+  told.stop = rigging_stop_.get_token();
+  told.progress = [news = rigging_news_](std::string_view stage, double fraction) {
+    news->tell(stage, fraction);
+  };
+  const Edited& now = history_.now();
   rigging_ = std::async(
-      std::launch::async,
-      [of = history_.now(), held = scene, options, repaired, certificate, ground = ground_,
-       certificate_options = pipeline.extract.certificate, repair_options = pipeline.repair,
-       stop = rigging_stop_.get_token(), news = rigging_news_]() mutable {
+      std::launch::async, [of = now, held = scene, monitor = std::move(told),
+                           work = is_as_made(now) ? work_of_surface(now) : work_of_skeleton(now)] {
         give_way();
-        Monitor monitor;
-        monitor.stop = stop;
-        monitor.progress = [news](std::string_view stage, double fraction) {
-          news->tell(stage, fraction);
-        };
         Rigged made;
         made.scene = held;
         made.of = of;
         try {
-          repaired = repaired_of(held->document, std::move(repaired), repair_options, monitor);
-          if (!certificate) {
-            ground = ground_of(repaired, monitor, std::move(ground));
-            certificate = certificate_of(*ground, *of.skeleton, certificate_options, monitor);
-          }
-          made.rig =
-              rig_of(held->document, *repaired, *of.skeleton, &*certificate, options, monitor);
-          made.on_sheets = words_on_sheets(*repaired, repair_options);
+          made.rig = work(held->document, monitor);
         } catch (const Cancelled&) {
+        } catch (const std::bad_alloc&) {
+          made.error = "out of memory; a rig needs a smaller surface, or a coarser resolution";
         } catch (const std::exception& error) {
           made.error = error.what();
         }
         return made;
       });
+}
+
+/// The first begins with what the run leaves, others with what the one before left.
+Workbench::RigWork Workbench::work_of_surface(const Edited& made) {
+  if (!rig_memory_) {
+    const bool is_at_rest = retired_.empty();  // runs that were cancelled may still write to it
+    rig_memory_ = std::make_shared<ExtractionCache>(is_at_rest ? run_memory_->extraction.copy()
+                                                               : ExtractionCache());
+  }
+  return [options = options_for_rig(*made.run, made.detail, pipeline.character),
+          memory = rig_memory_](const Document& document, const Monitor& monitor) {
+    return rig_of_surface(document, options, monitor, *memory);
+  };
+}
+
+Workbench::RigWork Workbench::work_of_skeleton(const Edited& given) const {
+  CharacterOptions options = pipeline.character;
+  options.rig.joints.root = given.root;
+  // Always that of this very skeleton, so that a rig does not depend on when it was asked for.
+  std::optional<Certificate> known;
+  if (judgement_ && judgement_->error.empty() && judgement_->skeleton == given.skeleton) {
+    known = judgement_->certificate;
+  }
+  auto surface = result_ ? result_->repaired : ground_ ? ground_->repaired : nullptr;
+  return [options, known, surface, skeleton = given.skeleton, near = ground_,
+          certificate_options = pipeline.extract.certificate,
+          repair_options = pipeline.repair](const Document& document, const Monitor& monitor) {
+    const auto repaired = repaired_of(document, surface, repair_options, monitor);
+    const Certificate certificate = known ? *known
+                                          : certificate_of(*ground_of(repaired, monitor, near),
+                                                           *skeleton, certificate_options, monitor);
+    FoundRig found{rig_of(document, *repaired, *skeleton, &certificate, options, monitor), {}};
+    found.findings = rig_findings(*found.character, options);
+    const std::string on_sheets = words_on_sheets(*repaired, repair_options);
+    if (!on_sheets.empty()) found.findings.push_back(on_sheets);
+    return found;
+  };
 }
 
 StageNews::Stage Workbench::rig_stage() const {
@@ -89,7 +114,8 @@ bool Workbench::take_rig() {
   if (!is_ready(rigging_)) return false;
   const Rigged made = rigging_.get();
   // By a person, or by a change, even one taken back.
-  const bool stopped = rigging_stop_.stop_requested() || (!made.rig && made.error.empty());
+  const bool stopped =
+      rigging_stop_.stop_requested() || (!made.rig.character && made.error.empty());
   const bool stale = stopped || run_ || made.scene != scene || history_.empty() ||
                      made.of.skeleton != history_.now().skeleton ||
                      made.of.root != history_.now().root;
@@ -105,11 +131,11 @@ bool Workbench::take_rig() {
     return true;
   }
   drop_rig();
-  made_rig_ = made.rig;
+  made_rig_ = made.rig.character;
   place_rig();
   go_to(scene->recording.moments().size() - 1);
-  say(words_of(*made.rig));
-  if (!made.on_sheets.empty()) say(made.on_sheets);
+  say(words_of(*made_rig_));
+  for (const std::string& finding : made.rig.findings) say(finding);
   if (!options_.joint.empty()) choose_wished_joint();
   options_.joint.clear();  // from now on a person chooses
   if (!save_rig_to_.empty()) save(std::exchange(save_rig_to_, {}), true);  // was asked for
@@ -214,6 +240,7 @@ void Workbench::set_role(const std::string& role) {
 }
 
 void Workbench::save_rig(const std::filesystem::path& file, RigFormat format) {
+  require_pose(format, exported.pose, file.string());
   if (format == RigFormat::vrm) require_whole(vrm);
   if (!has_rig() || rigging_.valid()) {
     save_rig_to_ = file;
@@ -222,8 +249,9 @@ void Workbench::save_rig(const std::filesystem::path& file, RigFormat format) {
   }
   const Document& document = scene->document;
   const CharacterRig& character = *scene->recording.moments().back().character;
-  const Rig rig = with_one_root(character.rig, document.surface, character.plan.axes.row(1));
-  const std::string name = files_.empty() ? "surface" : files_.front().stem().string();
+  const Rig rig = rig_for_export(character.rig, character.plan, document.surface, exported,
+                                 character.other_plans);
+  const std::string name = without_gz(document.mesh_file).stem().string();
   std::optional<EditedFile> edited;
   std::string without;  // why the file's own content is not in what is saved
   try {
@@ -244,7 +272,8 @@ void Workbench::save_rig(const std::filesystem::path& file, RigFormat format) {
   note_saved(file);
   say("saved " + file.string() + (without.empty() ? "" : ", the surface alone: " + without));
   if (format == RigFormat::vrm) {
-    const auto finding = posture_finding(character, {});
+    const auto finding =
+        posture_finding(character, {document.mesh_file, OldRig::replaced, false, exported.pose});
     if (finding) say(*finding);
   }
   go_on_after_saving();

@@ -32,7 +32,6 @@ void Workbench::start(bool paused) {
   options.extract.fairing = options.extract.fair.iterations > 0;
   // Coarser levels are parts of the one that is made.
   options.extract.embed.detail = std::max(options.extract.embed.detail, EmbedOptions().detail);
-  run_detail_ = options.extract.embed.detail;
   // One core stays for the picture; the result is the same.
   if (options.extract.threads == 0) {
     options.extract.threads =
@@ -40,6 +39,7 @@ void Workbench::start(bool paused) {
   }
   options.extract.certificate.threads = options.extract.threads;
   options.extract.fair.threads = options.extract.threads;
+  run_options_ = std::make_shared<const RunOptions>(options);
   run_ = std::make_unique<Run>(scene->document.polygons(), options, scene->document.space,
                                run_memory_, paused);
   news_ = {};
@@ -167,7 +167,7 @@ CurveSkeleton Workbench::at_level(const CurveSkeleton& whole) const {
 }
 
 double Workbench::detail_made() const {
-  if (run_) return run_detail_;
+  if (run_) return run_options_->extract.embed.detail;
   return history_.empty() ? EmbedOptions().detail : history_.now().detail_made;
 }
 
@@ -207,7 +207,9 @@ void Workbench::take_result(RunResult result) {
   Edited made{std::make_shared<const CurveSkeleton>(at_level(*result.skeleton)), -1, false, {}};
   made.whole = result.skeleton;
   made.detail = pipeline.extract.embed.detail;
-  made.detail_made = run_detail_;
+  made.detail_made = run_options_->extract.embed.detail;
+  made.run = run_options_;
+  rig_memory_.reset();
   if (!history_.empty()) made.roles = history_.now().roles;
   show_made(std::move(made), true);
   if (had_root) say("the root was a node of the skeleton before; set it again (T)");

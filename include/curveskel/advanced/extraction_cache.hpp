@@ -18,6 +18,10 @@ class ExtractionCache {
   ExtractionCache(const ExtractionCache&) = delete;
   ExtractionCache& operator=(const ExtractionCache&) = delete;
 
+  /// Another one that begins with the same values, which the two share; from then on each may serve
+  /// an extraction of its own at the same time. O(#V).
+  [[nodiscard]] ExtractionCache copy() const;
+
   struct Implementation;
 
   /// For `extract`: the kept stages, made if there are none.
