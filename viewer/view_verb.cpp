@@ -129,6 +129,7 @@ int run_view(ViewOptions options, Session& session) {
   }
   if (!options.screenshot.empty()) (void)format_of(options.screenshot, picture_formats);
   if (!pictures && !options.turns.empty()) throw UsageError("--turn is for pictures");
+  if (pictures && !options.may_be_coarse) throw UsageError("--never-coarse is for the window");
   if (!pictures) return run_window(options, session);
   if (!(options.vrm.name + options.vrm.author + options.vrm.licence_url).empty()) {
     throw UsageError("--vrm-name, --vrm-author and --vrm-licence are for the window");
@@ -148,9 +149,10 @@ void add_pictures(CLI::App& parser, ViewOptions& options) {
       ->type_name("OUT.png");
   parser.add_flag("--two-sides", options.two_sides,
                   "the screenshot shows the surface from its best side and at a right angle to it");
-  parser.add_option("--turntable", options.turntable, "folder for pictures from all around")
-      ->type_name("DIR");
-  add_number(parser, "--frames", options.frames, 1, 10000, "of the turntable");
+  CLI::Option* const turntable =
+      parser.add_option("--turntable", options.turntable, "folder for pictures from all around")
+          ->type_name("DIR");
+  add_number(parser, "--frames", options.frames, 1, 10000, "of the turntable")->needs(turntable);
   add_text(parser, options, "--size", "WxH", "of the window or the picture, in pixels", set_size)
       ->default_str("1600x1000");
   add_text(parser, options, "--camera", "VIEW",

@@ -36,9 +36,10 @@ SourceOptions add_sources(CLI::App& parser, RigArguments& arguments) {
                       "rig this one (of extract or view, corrected by hand, or of another program) "
                       "instead of extracting one")
           ->type_name("FILE");
-  parser.add_flag("--bare", arguments.bare,
-                  "write the surface alone, without materials and all else that the file has, "
-                  "instead of the file itself with the rig in it");
+  CLI::Option* const bare =
+      parser.add_flag("--bare", arguments.bare,
+                      "write the surface alone, as viewers show it, without materials and all else "
+                      "that the file has, instead of the file itself with the rig in it");
   found.keep =
       parser.add_flag("--keep-rig", arguments.keep_rig,
                       "make no joints, but weights for those that the glTF, FBX or DAE file has");
@@ -46,7 +47,8 @@ SourceOptions add_sources(CLI::App& parser, RigArguments& arguments) {
       .add_flag("--as-shown", arguments.as_shown,
                 "rig a glTF, FBX or DAE file whose old joints rest in another pose than they were "
                 "bound in as viewers show it; its vertices are written anew")
-      ->excludes(found.keep);
+      ->excludes(found.keep)
+      ->excludes(bare);
   found.given =
       parser
           .add_option("--joints", arguments.joints,

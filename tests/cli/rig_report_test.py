@@ -70,6 +70,7 @@ class Options(CommandLineTest):
         for arguments, says in (
                 ((SPOT, "--joints", "x.json", "--front", "x"), ["--front"]),
                 (("x.glb", "--keep-rig", "--up", "z"), ["--up"]),
+                (("x.glb", "--bare", "--as-shown"), ["--bare", "--as-shown"]),
                 ((SPOT, "--plan", "none", "--front", "x"), ["--front x", "--plan none"]),
                 ((SPOT, "--root", "3", "--front", "x"), ["--front x", "--root"])):
             self.refused(USAGE, "rig", *arguments, "-o", "y.glb", says=says, cwd=self.folder)

@@ -81,6 +81,9 @@ class Options(ViewTest):
                          says=[f"--colour {colour} needs a rig that is made", "--stage rig"])
         self.refused(USAGE, "view", Y, "--frame-times", self.folder / "times.csv", *out,
                      says=["--frame-times is for the window"])
+        self.refused(USAGE, "view", Y, "--never-coarse", *out,
+                     says=["--never-coarse is for the window"])
+        self.refused(USAGE, "view", Y, "--frames", 3, *out, says=["--frames", "--turntable"])
         self.refused(USAGE, "view", Y, "--vrm-name", "a", *out, says=["--vrm-name", "the window"])
 
 
