@@ -83,16 +83,16 @@ std::optional<std::vector<Point>> WaysBelow::search(const Task& task) {
   constexpr int most_ways = 20;
   pair_edges();
   std::unordered_map<Place, Place, HashOfPlace> before;  // of those that were reached
-  struct Step {
+  struct OpenStep {
     double estimate = 0;  // of the whole way
     double length = 0;    // up to its end
     Place by;
     Place to;
-    [[nodiscard]] bool operator>(const Step& other) const {
+    [[nodiscard]] bool operator>(const OpenStep& other) const {
       return std::tie(estimate, to, by) > std::tie(other.estimate, other.to, other.by);
     }
   };
-  std::priority_queue<Step, std::vector<Step>, std::greater<>> open;
+  std::priority_queue<OpenStep, std::vector<OpenStep>, std::greater<>> open;
   const auto leave = [&](std::int32_t face, const Place& by, const Point& at, double length) {
     const auto reach = [&](std::int32_t h) {
       Place to{h, by.number};
@@ -110,7 +110,7 @@ std::optional<std::vector<Point>> WaysBelow::search(const Task& task) {
   leave(task.from.triangle, {}, task.from.point, 0);
   std::int64_t more = task.handles == nullptr ? more_places_ : std::min(most_places, more_places_);
   for (int ways = 0; !open.empty() && ways < most_ways && more > 0;) {
-    const Step step = open.top();
+    const OpenStep step = open.top();
     open.pop();
     if (before.contains(step.to) || !stays_inside(task, step.by.half_edge, step.to.half_edge)) {
       continue;
