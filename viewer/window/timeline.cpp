@@ -150,14 +150,15 @@ void draw_choice_of_component(Workbench& bench, int component) {
   go_beside(">", component + 1, "the next component");
 }
 
-/// Only where there are tries that were not kept. Nothing: the choice stays.
-std::optional<bool> draw_choice_of_tries(const Workbench& bench) {
+/// Only where there are tries that were not kept. True if all are to be shown.
+bool draw_choice_of_tries(const Workbench& bench) {
   const Recording& recording = bench.scene->recording;
-  if (!recording.has_other_tries() || bench.running()) return std::nullopt;
+  if (!recording.has_other_tries() || bench.running()) return recording.shows_all_tries();
   const float letter = ImGui::GetFontSize();
   (void)has_room(2 * letter, ImGui::CalcTextSize("all tries").x + 2 * letter);
   bool all = recording.shows_all_tries();
-  return ImGui::Checkbox("all tries", &all) ? std::optional(all) : std::nullopt;
+  ImGui::Checkbox("all tries", &all);
+  return all;
 }
 
 /// The moments as steps, with the plots of the component; tries are not connected with each other.
@@ -204,7 +205,7 @@ void draw_timeline(Workbench& bench, const Area& area) {
   draw_title(*bench.scene, shown, area.width > ImGui::GetFontSize() * 60);
   if (shown.size() > 1) draw_names_of_plots(bench.scene->look.theme);
   draw_choice_of_component(bench, component);
-  const std::optional<bool> all_tries = draw_choice_of_tries(bench);
+  const bool all_tries = draw_choice_of_tries(bench);
   const ImVec2 low = ImGui::GetCursorScreenPos();
   const ImVec2 size(ImGui::GetContentRegionAvail().x,
                     std::max(ImGui::GetContentRegionAvail().y, 10.0F));
@@ -223,7 +224,7 @@ void draw_timeline(Workbench& bench, const Area& area) {
                                             ImGui::GetColorU32(ImGuiCol_Text));
   ImGui::End();
   // Last, as other moments take the place of those that were drawn.
-  if (all_tries) bench.show_all_tries(*all_tries);
+  if (all_tries != bench.scene->recording.shows_all_tries()) bench.show_all_tries(all_tries);
 }
 
 }  // namespace curveskel::viewer
