@@ -138,7 +138,7 @@ int top_of_trunk(const CurveTree& tree, const Limbs& limbs, int root, int arms) 
 }
 
 Posture posture_of(const CurveTree& tree, const Limbs& limbs, int leg, int arms) {
-  constexpr double clearly = 0.1;
+  constexpr double clearly = 0.1;  // of the size
   const int root = limbs.pairs[idx(leg)].root;
   const Vector3d& hips = tree.nodes[idx(root)];
   const int top = top_of_trunk(tree, limbs, root, arms);

@@ -60,29 +60,25 @@ class PairFinder {
     for (const int tip : tips_) {
       const double aside = std::abs(tree_.aside(tip)) / tree_.size;
       const double in_the_middle = taken[idx(tip)] == 0 ? nearly_in_plane : in_plane;
-      if (aside <= in_the_middle && !leaves_plane(tip)) found_.ends.push_back(tip);
+      if (aside <= in_the_middle && side_of_branch(tip) == 0) found_.ends.push_back(tip);
     }
   }
 
-  /// How far aside, at most, its branch forks on the way to the thickest place.
-  [[nodiscard]] double fork_aside(int tip) const {
+  /// Of a tip in the plane: inner toes that meet there come from one side. How far aside its branch
+  /// forks, at most, on the way to the thickest place; 0 where that is near the plane.
+  [[nodiscard]] double side_of_branch(int tip) const {
     double most = 0;
     for (const int node : from_first_.between(tip, thickest_)) {
       const bool is_fork = tree_.neighbours[idx(node)].size() > 2;
       if (is_fork && std::abs(tree_.aside(node)) > std::abs(most)) most = tree_.aside(node);
     }
-    return most;
-  }
-
-  /// True of a tip in the plane whose branch comes from one side: inner toes that meet there.
-  [[nodiscard]] bool leaves_plane(int tip) const {
-    return std::abs(fork_aside(tip)) > alike * tree_.size;
+    return std::abs(most) > alike * tree_.size ? most : 0;
   }
 
   /// Above 0 on the left; 0 in the plane.
   [[nodiscard]] double side_of(int tip) const {
-    if (std::abs(tree_.aside(tip)) > in_plane * tree_.size) return tree_.aside(tip);
-    return leaves_plane(tip) ? fork_aside(tip) : 0;
+    const double aside = tree_.aside(tip);
+    return std::abs(aside) > in_plane * tree_.size ? aside : side_of_branch(tip);
   }
 
   /// Left tips, and right ones whose images are near them: those in the neighbouring cells.

@@ -1,11 +1,9 @@
 #include <algorithm>
 #include <array>
-#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include <curveskel/error.hpp>
@@ -69,51 +67,22 @@ void append_branches(std::string& text, const CurveSkeleton& skeleton) {
 
 /// Of a text that is one JSON object the names of its members, of others nothing. No value is kept,
 /// as reports of many components are long.
-class MemberNames : public nlohmann::json_sax<nlohmann::json> {
- public:
-  [[nodiscard]] static std::optional<std::vector<std::string>> of(const std::string& text) {
-    MemberNames members;
-    if (!nlohmann::json::sax_parse(text, &members) || !members.is_object_) return std::nullopt;
-    return std::move(members.names_);
-  }
-
-  bool null() override { return true; }
-  bool boolean(bool /*value*/) override { return true; }
-  bool number_integer(std::int64_t /*value*/) override { return true; }
-  bool number_unsigned(std::uint64_t /*value*/) override { return true; }
-  bool number_float(double /*value*/, const std::string& /*text*/) override { return true; }
-  bool string(std::string& /*value*/) override { return true; }
-  bool binary(nlohmann::json::binary_t& /*value*/) override { return true; }
-  bool start_object(std::size_t /*members*/) override {
-    is_object_ = is_object_ || depth_ == 0;
-    ++depth_;
-    return true;
-  }
-  bool key(std::string& name) override {
-    if (depth_ == 1) names_.push_back(name);
-    return true;
-  }
-  bool end_object() override { return --depth_ >= 0; }
-  bool start_array(std::size_t /*values*/) override {
-    ++depth_;
-    return true;
-  }
-  bool end_array() override { return --depth_ >= 0; }
-  bool parse_error(std::size_t /*place*/, const std::string& /*token*/,
-                   const nlohmann::json::exception& /*error*/) override {
-    return false;
-  }
-
- private:
-  int depth_ = 0;
-  bool is_object_ = false;
-  std::vector<std::string> names_;
-};
+std::optional<std::vector<std::string>> member_names(const std::string& text) {
+  using Event = nlohmann::json::parse_event_t;
+  std::vector<std::string> names;
+  const auto note = [&](int depth, Event event, nlohmann::json& parsed) {
+    if (depth == 1 && event == Event::key) names.push_back(parsed.get<std::string>());
+    return depth == 0;
+  };
+  constexpr bool throws = false;
+  if (!nlohmann::json::parse(text, note, throws).is_object()) return std::nullopt;
+  return names;
+}
 
 /// The members of the report object as they are, each after a comma.
 void append_report(std::string& text, const std::string& report_json) {
   if (report_json.empty()) return;
-  const std::optional<std::vector<std::string>> names = MemberNames::of(report_json);
+  const std::optional<std::vector<std::string>> names = member_names(report_json);
   if (!names) {
     throw Error(Fault::output,
                 "the report for the JSON skeleton is no JSON object, needed one; pass {...}");

@@ -6,8 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "surface/repair/close_surface.hpp"
-
 namespace curveskel {
 namespace {
 
